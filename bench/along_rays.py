@@ -22,6 +22,7 @@ WIDTH, HEIGHT = 240, 136
 FILES = {"guitar": "guitar.compressed.ply", "truck": "truck.splat", "garden_outdoor": "garden_outdoor.sog.d",
          "room7k_sh3": "room7k_sh3.ply"}
 TURNING = camera_sheet.ROLLING
+POINTS = ["--projection", "unscented"]
 
 
 def plain(view):
@@ -86,29 +87,42 @@ class Judge:
         with open(said, encoding="utf-8") as f:
             return json.load(f)
 
-    def figures(self, scene, view, lens, shutter=None):
-        """PSNR by the Jacobian, by points everywhere and by points, and the share of Gaussians by the Jacobian then."""
-        key = scene, view, lens, shutter is not None and tuple(map(str, shutter.items()))
-        if key in self.known:
-            return self.known[key]
+    def psnr(self, record, scene, options, judge):
+        """Of footprints with the options beside the picture of the judge, and what their drawing said."""
+        said = self.draw(scene, record, options, "footprints")
+        compared = os.path.join(self.folder, "compared.json")
+        subprocess.run(["splat", "compare", os.path.join(self.folder, judge + ".npz"),
+                        os.path.join(self.folder, "footprints.npz"), "--json", compared],
+                       check=True, stdout=subprocess.DEVNULL)
+        with open(compared, encoding="utf-8") as f:
+            return json.load(f)["psnr_db"], said
+
+    def record(self, scene, view, lens):
         with open(self.files(scene)[1], encoding="utf-8") as f:
             record = next(record for record in json.load(f) if record["img_name"] == view)
         scale = WIDTH / record["width"]
         record = {**record, "width": WIDTH, "height": HEIGHT, "fx": record["fx"] * scale, "fy": record["fy"] * scale}
-        record = lens({key: value for key, value in record.items() if key not in ("cx", "cy")})
-        record.update(shutter or {})
-        self.draw(scene, record, ["--along-rays"], "rays")
+        return lens({key: value for key, value in record.items() if key not in ("cx", "cy")})
+
+    def still(self, scene, view, lens):
+        """PSNR by the Jacobian, by points everywhere and by points, and the share of Gaussians by the Jacobian then."""
+        if (scene, view, lens) not in self.known:
+            record = self.record(scene, view, lens)
+            self.draw(scene, record, ["--along-rays"], "rays")
+            jacobian, _ = self.psnr(record, scene, [], "rays")
+            everywhere, _ = self.psnr(record, scene, [*POINTS, "--point-spread", "1e9"], "rays")
+            points, said = self.psnr(record, scene, POINTS, "rays")
+            share = 100 - 100 * said["by_points"] / said["visible"]
+            self.known[scene, view, lens] = jacobian, everywhere, points, share
+        return self.known[scene, view, lens]
+
+    def rolling(self, scene, view, lens, shutter):
+        """PSNR by the Jacobian and by points, then beside the judge in the order of the pose."""
+        record = {**self.record(scene, view, lens), **shutter}
         found = []
-        for options in ([], ["--projection", "unscented", "--point-spread", "1e9"], ["--projection", "unscented"]):
-            said = self.draw(scene, record, options, "footprints")
-            compared = os.path.join(self.folder, "compared.json")
-            subprocess.run(["splat", "compare", os.path.join(self.folder, "rays.npz"),
-                            os.path.join(self.folder, "footprints.npz"), "--json", compared],
-                           check=True, stdout=subprocess.DEVNULL)
-            with open(compared, encoding="utf-8") as f:
-                found.append(json.load(f)["psnr_db"])
-        found.append(100 - 100 * said["by_points"] / said["visible"])
-        self.known[key] = found
+        for order in ("depth", "pose"):
+            self.draw(scene, record, ["--along-rays", "--order", order], "rays")
+            found += [self.psnr(record, scene, options, "rays")[0] for options in ([], POINTS)]
         return found
 
 
@@ -124,15 +138,16 @@ def main():
         for scene, view, lens in VIEWS:
             name = f"{scene}, {view}{LENSES[lens]}"
             if args.only in name:
-                jacobian, everywhere, points, share = judge.figures(scene, view, lens)
+                jacobian, everywhere, points, share = judge.still(scene, view, lens)
                 print(f"| {name} | {jacobian:.1f} | {everywhere:.1f} | {points:.1f} | {share:.1f} % |", flush=True)
-        print("\n| view | Jacobian | unscented | without a shutter: Jacobian | unscented |\n|---|--:|--:|--:|--:|")
+        print("\n| view | Jacobian | unscented | by the pose's order: Jacobian | unscented | without a shutter: Jacobian | "
+              "unscented |\n|---|--:|--:|--:|--:|--:|--:|")
         for scene, view, lens, shutter in SHUTTERS:
             name = f"{scene}, {view}{LENSES[lens]}" + (", turning by 0.25 radians" if shutter is TURNING else "")
             if args.only in name:
-                jacobian, _, points, _ = judge.figures(scene, view, lens, shutter)
-                still = judge.figures(scene, view, lens)
-                print(f"| {name} | {jacobian:.1f} | {points:.1f} | {still[0]:.1f} | {still[2]:.1f} |", flush=True)
+                found = judge.rolling(scene, view, lens, shutter)
+                jacobian, _, points, _ = judge.still(scene, view, lens)
+                print(f"| {name} | " + " | ".join(f"{db:.1f}" for db in (*found, jacobian, points)) + " |", flush=True)
 
 
 if __name__ == "__main__":

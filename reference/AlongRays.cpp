@@ -94,8 +94,8 @@ private:
 class SeenScene {
 public:
   SeenScene(const Gaussians<double> &G, const Camera<double> &C,
-            const Options &O)
-      : G(G), C(C), O(O) {
+            const Options &O, RayDepths By)
+      : G(G), C(C), O(O), By(By) {
     Bodies.reserve(G.size());
     for (std::size_t I = 0; I < G.size(); ++I) {
       Body B;
@@ -153,7 +153,10 @@ private:
       return;
     if (const double Alpha = alpha(B, G.Opacities[I], R, From, Far);
         Alpha >= leastAlpha<double>(O.AlphaCutoff))
-      List.push_back({Depth, static_cast<int32_t>(I), Alpha});
+      List.push_back({By == RayDepths::Own    ? Depth
+                      : C.Optics.byDistance() ? glm::length(B.Mean)
+                                              : B.Mean.z,
+                      static_cast<int32_t>(I), Alpha});
   }
 
   double alpha(const Body &B, double Opacity, const PixelRay &R,
@@ -183,13 +186,15 @@ private:
   const Gaussians<double> &G;
   const Camera<double> &C;
   const Options &O;
+  const RayDepths By;
   std::vector<Body> Bodies;
 };
 
 } // namespace
 
 Picture<double> renderAlongRays(const Gaussians<double> &G,
-                                const Camera<double> &C, const Options &O) {
+                                const Camera<double> &C, const Options &O,
+                                RayDepths By) {
   Picture<double> P;
   P.Width = C.Width;
   P.Height = C.Height;
@@ -203,7 +208,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
   P.Stop.resize(Pixels, -1);
   const glm::dvec3 Background(O.Background[0], O.Background[1],
                               O.Background[2]);
-  const SeenScene All(G, C, O);
+  const SeenScene All(G, C, O, By);
   std::atomic<uint64_t> Blends = 0, Walked = 0, Saturated = 0;
   forEachTile(Grid.count(), O.Threads, [&](std::size_t Tile) {
     const int X0 = static_cast<int>(Tile) % Grid.Columns * Grid.Size;

@@ -61,13 +61,8 @@ Symmetric covarianceGradient(const dvec3 &K, const dvec3 &G) {
                     Yx * K[1] + Yy * K[2]);
 }
 
-/// d(ratio of the determinants before and after dilation)/d(covariance).
-Symmetric ratioGradient(const dvec3 &S, double Dilation, double Ratio,
-                        double Det) {
-  const Symmetric Sharp(S[2] - Dilation, -S[1], S[0] - Dilation);
-  const Symmetric Dilated(S[2], -S[1], S[0]);
-  return (Sharp - Ratio * Dilated) / Det;
-}
+/// Derivatives of a symmetric matrix' determinant.
+Symmetric adjugate(const dvec3 &M) { return {M[2], -M[1], M[0]}; }
 
 /// dL/d(unit quaternion) along its tangent from dL/d(rotation matrix).
 dvec4 quaternionGradient(const dvec4 &Q, const dmat3 &G) {
@@ -105,16 +100,24 @@ public:
     const double ByOpacity = Sum.S == 0 ? 0 : Sum.S / S.Opacity;
     Out.Opacities[I] = ByOpacity * S.Compensation;
 
-    Symmetric V = covarianceGradient(K, Out.Conics[I]);
+    // By the covariance before the dilation, and by the dilation.
+    Symmetric V = covarianceGradient(K, Out.Conics[I]), W = V;
     if (Settings.Antialiased) {
       const double Det =
           S.Covariance[0] * S.Covariance[2] - S.Covariance[1] * S.Covariance[1];
       const double Ratio = S.Compensation * S.Compensation;
-      if (Ratio > LeastDeterminantRatio)
-        V += ByOpacity * Input.Opacities[I] / (2 * S.Compensation) *
-             ratioGradient(S.Covariance, Settings.Dilation, Ratio, Det);
+      if (Ratio > LeastDeterminantRatio) {
+        // Of the ratio of the determinants before and after dilation.
+        const double ByRatio =
+            ByOpacity * Input.Opacities[I] / (2 * S.Compensation * Det);
+        const Symmetric ByAfter = -ByRatio * Ratio * adjugate(S.Covariance);
+        V += ByRatio * adjugate(S.Covariance - S.Added) + ByAfter;
+        W += ByAfter;
+      }
     }
     Out.Means[I] = shape(I, V);
+    if (View.Shutter && S.ByPoints)
+      Out.Means[I] += throughDilation(I, W);
     if (Input.Colors.empty())
       color(I);
   }
@@ -163,6 +166,16 @@ private:
     }
     Out.Quats[I] = quaternionGradient(Input.Quats[I], ByRotation);
     return Back * By.Mean;
+  }
+
+  /// Behind a shutter the mean's place says how the dilation is sheared.
+  dvec3 throughDilation(std::size_t I, const Symmetric &W) {
+    const dvec3 P = multiply(View.Rotation, Input.Means[I]) + View.Translation;
+    ExposedPoint E;
+    expose(View, P, Settings.Rule, E);
+    const glm::dmat2 By(W[0], W[1], W[1], W[2]);
+    return glm::transpose(View.Rotation) *
+           backThroughShear(View, P, 2 * Settings.Dilation * By * E.FreeShear);
   }
 
   /// The rows of the Jacobian are constants here (Backward.h).

@@ -173,10 +173,12 @@ Point<T> heldPoint(const Camera<Real> &C, const Point<T> &P, Rules Rule) {
   return {Out * P[0], Height, Out * P[2]};
 }
 
-/// Place, with derivatives, of the point that is held for \p P.
+/// Place, with derivatives, of the point that is held for \p P, by \p Rule if
+/// any.
 template <typename Real, typename T>
-Place<Dual<T>> heldPlace(const Camera<Real> &C, const Point<T> &P, Rules Rule) {
-  const Point<T> Held = heldPoint(C, P, Rule);
+Place<Dual<T>> heldPlace(const Camera<Real> &C, const Point<T> &P,
+                         std::optional<Rules> Rule) {
+  const Point<T> Held = Rule ? heldPoint(C, P, *Rule) : P;
   Point<Dual<T>> Variables;
   for (std::size_t K = 0; K < 3; ++K)
     Variables[K] = Dual<T>::variable(Held[K], K);
@@ -228,8 +230,8 @@ LensRows<Real> rowsThrough(const Camera<Real> &C, const glm::vec<3, Real> &P,
   return R;
 }
 
-glm::dvec3 backThrough(const Camera<double> &C, const glm::dvec3 &P, Rules Rule,
-                       const glm::dvec2 &ByPlace,
+glm::dvec3 backThrough(const Camera<double> &C, const glm::dvec3 &P,
+                       std::optional<Rules> Rule, const glm::dvec2 &ByPlace,
                        const LensRows<double> &ByRows) {
   // Straight up or down a longitude has no derivative.
   if (C.Optics.Model == LensModel::Equirectangular && P.x == 0 && P.z == 0)

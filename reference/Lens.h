@@ -6,6 +6,7 @@
 #include "Types.h"
 
 #include <cmath>
+#include <optional>
 
 namespace vorion::reference {
 
@@ -46,9 +47,9 @@ LensRows<Real> rowsThrough(const Camera<Real> &C, const glm::vec<3, Real> &P,
 /// The same at \p P itself.
 LensRows<double> freeRowsThrough(const Camera<double> &C, const glm::dvec3 &P);
 
-/// dL/dP from dL/d(place in pixels) and dL/d(rows).
-glm::dvec3 backThrough(const Camera<double> &C, const glm::dvec3 &P, Rules Rule,
-                       const glm::dvec2 &ByPlace,
+/// dL/dP from dL/d(place in pixels) and dL/d(rows), held by \p Rule if any.
+glm::dvec3 backThrough(const Camera<double> &C, const glm::dvec3 &P,
+                       std::optional<Rules> Rule, const glm::dvec2 &ByPlace,
                        const LensRows<double> &ByRows);
 
 } // namespace vorion::reference

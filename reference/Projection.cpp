@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <optional>
 #include <type_traits>
 
@@ -147,6 +148,7 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   A = multiply(C.Rotation, A);
   Vec2<Real> At;
   LensRows<Real> Rows;
+  glm::dmat2 Shear(1), FreeShear(1);
   if (C.Shutter) {
     ExposedPoint E;
     if (!expose(C, glm::dvec3(P), O.Rule, E) ||
@@ -154,6 +156,8 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
       return S;
     At = Vec2<Real>(E.Place);
     Rows = {Vec3<Real>(E.Rows.X), Vec3<Real>(E.Rows.Y)};
+    Shear = E.Shear;
+    FreeShear = E.FreeShear;
   } else if (!Straight) {
     if (!placeThrough(L, P, At))
       return S;
@@ -175,12 +179,22 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   const Real H = static_cast<Real>(O.Dilation);
   const Real Sxx = Sharp->Covariance[0], Syy = Sharp->Covariance[2];
   const Real Det0 = Sharp->Determinant;
-  const Real Det = Det0 + H * (Sxx + Syy) + H * H;
+  // Points are held nowhere.
+  if (S.ByPoints)
+    Shear = FreeShear;
+  // Round in a picture of one moment. Multiplied by 1 and 0, no bit changes.
+  const glm::dmat2 Round = Shear * glm::transpose(Shear);
+  const Vec3<Real> Kernel(Round[0].x, Round[0].y, Round[1].y);
+  const Real Det = Det0 +
+                   H * (Kernel[2] * Sxx + Kernel[0] * Syy -
+                        2 * Kernel[1] * Sharp->Covariance[1]) +
+                   H * H * static_cast<Real>(glm::determinant(Round));
   // Degenerate, or beyond what the precision can hold.
   if (!(Det > 0) || !std::isfinite(Det) || !std::isfinite(S.Mean.x) ||
       !std::isfinite(S.Mean.y))
     return S;
-  S.Covariance = {Sxx + H, Sharp->Covariance[1], Syy + H};
+  S.Added = H * Kernel;
+  S.Covariance = Sharp->Covariance + S.Added;
   const Real Inverse = 1 / Det;
   S.Conic = {S.Covariance[2] * Inverse, -S.Covariance[1] * Inverse,
              S.Covariance[0] * Inverse};

@@ -17,9 +17,12 @@ template <typename Real> struct Splat {
   /// carries it as a sum of two floats: 2^-44 of the magnitudes of its terms.
   double DepthSlack = 0;
   glm::vec<3, Real> Covariance; ///< xx, xy, yy, dilated, px^2
-  glm::vec<3, Real> Conic;      ///< its inverse: xx, xy, yy
-  Real Compensation = 1;        ///< the antialiasing factor
-  Real Opacity = 0;             ///< after compensation
+  /// What the dilation added. Behind a rolling shutter it is round to the
+  /// camera that stands still at the mean's moment (Shutter.h).
+  glm::vec<3, Real> Added;
+  glm::vec<3, Real> Conic; ///< its inverse: xx, xy, yy
+  Real Compensation = 1;   ///< the antialiasing factor
+  Real Opacity = 0;        ///< after compensation
   glm::vec<3, Real> Color;
   /// Half width and height of the box outside which the Gaussian is not
   /// evaluated, by the support. For Official16 the square, before tiles.
@@ -48,7 +51,8 @@ template <typename Real> struct Splat {
 ///     minors  = b0 c1 - b1 c0, b0 c2 - b2 c0, b1 c2 - b2 c1 for B's rows b, c
 ///     det0    = (minor^2 + minor^2) + minor^2
 ///     det     = (det0 + h (S_xx + S_yy)) + h h for the dilation h; S_xx and
-///               S_yy then become S_xx + h and S_yy + h
+///               S_yy then become S_xx + h and S_yy + h (behind a rolling
+///               shutter h is a matrix)
 ///     lambda  = mid + sqrt(max(0.1, half^2 + S_xy^2)), mid and half being half
 ///               the sum and the difference of S_xx and S_yy
 ///

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 
 namespace vorion::reference {
 namespace {
@@ -57,20 +58,55 @@ public:
     return std::clamp(Moment + (Own - Moment) / std::max(left(), Least), -End,
                       End);
   }
-  bool isHeld() const { return std::abs(Moment) >= End; }
-  /// Rows by the point in the axes of the pose from rows by the point to the
-  /// camera now. A step of the point moves its moment, too, and with it the
-  /// camera. The drift is that of the same rows: where they are held for a
-  /// point far beside the picture, its own drift would be of another place.
-  LensRows<double> byPose(LensRows<double> J) const {
-    if (!isHeld()) {
-      const glm::dvec2 D = drift(J);
-      const glm::dvec3 By =
-          (Way.x * J.X + Way.y * J.Y) / std::max(1 - glm::dot(Way, D), Least);
-      J.X += D.x * By;
-      J.Y += D.y * By;
+  /// False if it has none.
+  bool goToOwnMoment() {
+    double Next = 0;
+    for (int I = 0; I < 100; ++I) {
+      if (!goTo(Next))
+        return false;
+      Next = next();
+      if (std::abs(Next - Moment) < 1e-15)
+        break;
     }
-    return {turned(S.Turn, Moment, J.X), turned(S.Turn, Moment, J.Y)};
+    return goTo(Next) && (isHeld() || left() >= Least);
+  }
+  bool isHeld() const { return std::abs(Moment) >= End; }
+  /// A step of the point moves its moment, too, and with it the camera. The
+  /// drift is that of the rows \p J: where they are held for a point far beside
+  /// the picture, its own drift would be of another place.
+  glm::dmat2 shear(const LensRows<double> &J) const {
+    if (isHeld())
+      return glm::dmat2(1);
+    const glm::dvec2 D = drift(J);
+    return glm::dmat2(1) +
+           glm::outerProduct(D, Way) / std::max(1 - glm::dot(Way, D), Least);
+  }
+  /// Rows by the point in the axes of the pose from rows \p J by the point to
+  /// the camera now, which stands still.
+  LensRows<double> byPose(const LensRows<double> &J) const {
+    const glm::dmat2 M = shear(J);
+    return {turned(S.Turn, Moment, M[0].x * J.X + M[1].x * J.Y),
+            turned(S.Turn, Moment, M[0].y * J.X + M[1].y * J.Y)};
+  }
+
+  /// dL/d(point in the axes of the pose) from dL/d(shear of the free rows), at
+  /// the point's own moment.
+  glm::dvec3 backThroughShear(const glm::dmat2 &By) const {
+    if (isHeld())
+      return glm::dvec3(0);
+    const LensRows<double> J = freeRowsThrough(C, At);
+    // The shear is 1 + drift way^T / left, and left is 1 - way . drift.
+    const glm::dvec2 ByDrift =
+        By * Way / left() + glm::dot(Drift, By * Way) / (left() * left()) * Way;
+    const glm::dvec3 ByRate = ByDrift.x * J.X + ByDrift.y * J.Y;
+    const glm::dvec3 ByAt = backThrough(C, At, std::nullopt, glm::dvec2(0),
+                                        {ByDrift.x * Rate, ByDrift.y * Rate}) +
+                            glm::cross(S.Turn, ByRate);
+    const double ByMoment =
+        glm::dot(ByAt, Rate) +
+        glm::dot(ByRate, glm::cross(S.Turn, turned(S.Turn, -Moment, S.Motion)));
+    return turned(S.Turn, Moment,
+                  ByAt + ByMoment / left() * (Way.x * J.X + Way.y * J.Y));
   }
 
   const Camera<double> &C;
@@ -102,19 +138,24 @@ bool expose(const Camera<Real> &Of, const glm::dvec3 &P, Rules Rule,
             ExposedPoint &Found) {
   const Camera<double> &C = inDouble(Of);
   Exposure E(C, P);
-  double Next = 0;
-  for (int I = 0; I < 100; ++I) {
-    if (!E.goTo(Next))
-      return false;
-    Next = E.next();
-    if (std::abs(Next - E.Moment) < 1e-15)
-      break;
-  }
-  if (!E.goTo(Next) || (!E.isHeld() && !(E.left() >= Least)))
+  if (!E.goToOwnMoment())
     return false;
-  Found = {E.Moment, E.At, E.Place, E.byPose(heldRows(C, E.At, Rule)),
-           E.byPose(freeRowsThrough(C, E.At))};
+  const LensRows<double> Held = heldRows(C, E.At, Rule),
+                         Free = freeRowsThrough(C, E.At);
+  Found.Moment = E.Moment;
+  Found.P = E.At;
+  Found.Place = E.Place;
+  Found.Rows = E.byPose(Held);
+  Found.Free = E.byPose(Free);
+  Found.Shear = E.shear(Held);
+  Found.FreeShear = E.shear(Free);
   return true;
+}
+
+glm::dvec3 backThroughShear(const Camera<double> &C, const glm::dvec3 &P,
+                            const glm::dmat2 &By) {
+  Exposure E(C, P);
+  return E.goToOwnMoment() ? E.backThroughShear(By) : glm::dvec3(0);
 }
 
 template bool expose(const Camera<float> &, const glm::dvec3 &, Rules,

@@ -3,6 +3,8 @@
 
 #include "Lens.h"
 
+#include <glm/mat2x2.hpp>
+
 namespace vorion::reference {
 
 /// \p V turned about \p Turn by its length times \p Part: what the camera of a
@@ -23,6 +25,11 @@ struct ExposedPoint {
   /// rules hold the Jacobian, it is held.
   LensRows<double> Rows;
   LensRows<double> Free; ///< the same, held nowhere
+  /// Of steps on the picture that a camera sees which stands still at the
+  /// moment, to those on this one: rows that are exposed later see the point
+  /// moved. Rows are this times the still camera's.
+  glm::dmat2 Shear;
+  glm::dmat2 FreeShear; ///< of the rows that are held nowhere
 };
 
 /// \p P in the axes of the pose of \p C. False if the camera does not see it,
@@ -31,5 +38,9 @@ struct ExposedPoint {
 template <typename Real>
 bool expose(const Camera<Real> &C, const glm::dvec3 &P, Rules Rule,
             ExposedPoint &Found);
+
+/// dL/dP from dL/d(ExposedPoint::FreeShear) of a point that \p C sees.
+glm::dvec3 backThroughShear(const Camera<double> &C, const glm::dvec3 &P,
+                            const glm::dmat2 &By);
 
 } // namespace vorion::reference

@@ -135,6 +135,39 @@ TEST(Shutter, PicturesAreThoseOfTheirRows) {
   EXPECT_LT(-10 * std::log10(Moved / Count), 30);
 }
 
+/// How well the footprints' picture agrees with those of its rows, in dB.
+double agreementWithRows(const Gaussians<double> &G, const Camera<double> &C,
+                         const Options &O) {
+  const auto Rolling = render(G, C, O);
+  double Squares = 0;
+  for (int Y = 0; Y < C.Height; ++Y) {
+    const auto Own = render(G, atRow(C, Y), O);
+    for (int X = 0; X < C.Width; ++X) {
+      const auto At = static_cast<std::size_t>(Y * C.Width + X);
+      const glm::dvec3 Off = Rolling.Render[At] - Own.Render[At];
+      Squares += glm::dot(Off, Off);
+    }
+  }
+  return -10 * std::log10(Squares / double(3 * Rolling.Render.size()));
+}
+
+/// Gaussians much smaller than a pixel are nearly all dilation.
+TEST(Shutter, TheDilationIsThatOfEachRowsOwnCamera) {
+  auto C = frontCamera(48, 32, 40);
+  C.Shutter = {0, 0, 1, {}, {-0.1, 0.3, 0}};
+  Gaussians<double> G;
+  for (int I = 0; I < 5; ++I)
+    addRound(G, {0.3 * (I - 2), 0.2 * std::sin(2 * I), 2}, 0.001, 0.9,
+             glm::dvec3(1));
+  for (const Spread S : {Spread::Jacobian, Spread::Unscented})
+    for (const bool Antialiased : {false, true}) {
+      Options O;
+      O.Through = S;
+      O.Antialiased = Antialiased;
+      EXPECT_GT(agreementWithRows(G, C, O), 60);
+    }
+}
+
 TEST(Shutter, PicturesAlongRaysAreThoseOfTheirRows) {
   for (const LensModel M : {LensModel::Pinhole, LensModel::OpenCv,
                             LensModel::Fisheye, LensModel::Orthographic}) {

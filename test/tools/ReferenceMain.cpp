@@ -47,7 +47,10 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
   auto P = reference::blend(Splats, C.Width, C.Height, O);
   if constexpr (std::is_same_v<Real, double>) {
     if (A.AlongRays)
-      P = reference::renderAlongRays(splat::toReference<Real>(S), C, O);
+      P = reference::renderAlongRays(splat::toReference<Real>(S), C, O,
+                                     A.Order == "pose"
+                                         ? reference::RayDepths::Pose
+                                         : reference::RayDepths::Own);
     if (A.Order == "ray") {
       const auto G = splat::toReference<Real>(S);
       auto R = reference::blendInOrder(Splats, C.Width, C.Height, O,
@@ -112,10 +115,13 @@ Expected<Success> run(Arguments &A) {
       return Error{*File, "unknown kind of file, expected .npz",
                    ExitCode::Usage};
   if (A.AlongRays && (A.Precision != "f64" || A.Support != "exact" ||
-                      A.Projection != "jacobian" || A.Order != "depth"))
+                      A.Projection != "jacobian" || A.Order == "ray"))
     return Error{"",
                  "--along-rays is for --precision f64 without footprints, "
-                 "expected no --support, --projection or --order",
+                 "expected no --support, --projection or --order ray",
+                 ExitCode::Usage};
+  if (A.Order == "pose" && !A.AlongRays)
+    return Error{"", "--order pose is for --along-rays, expected it too",
                  ExitCode::Usage};
   const auto File = splat::readScene(A.Scene, A.Read);
   if (!File)
@@ -161,8 +167,11 @@ int main(int Count, char **Values) {
                  "side, whichever is less")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
-  App.add_option("--order", A.Order, "By which depths a pixel blends, with f64")
-      ->check(CLI::IsMember({"depth", "ray"}))
+  App.add_option("--order", A.Order,
+                 "By which depths a pixel blends, with f64; pose: with "
+                 "--along-rays, by those of the camera's pose, as footprints "
+                 "do behind a rolling shutter")
+      ->check(CLI::IsMember({"depth", "ray", "pose"}))
       ->capture_default_str();
   App.add_flag("--along-rays", A.AlongRays,
                "With f64: a pixel sees of each Gaussian the largest density "

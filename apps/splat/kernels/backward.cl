@@ -78,6 +78,17 @@ static float2 by_compensation(screen_covariance s, float by_opacity,
 }
 #endif
 
+// The same as dL/d(logarithm of the share of the determinant that is kept).
+static float by_share_kept(screen_covariance s, float by_opacity,
+                           float opacity) {
+#ifdef ANTIALIASED
+  const float kept = s.det_sharp / s.det;
+  if (kept > ANTIALIAS_FLOOR)
+    return 0.5f * by_opacity * opacity * sqrt(kept);
+#endif
+  return 0.0f;
+}
+
 // What is left of the opacity.
 static float compensation_of(screen_covariance s) {
 #ifdef ANTIALIASED

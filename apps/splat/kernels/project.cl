@@ -230,13 +230,19 @@ static uint project_one(__local workspace *c, __global const float *geometry,
 #if USE_UNSCENTED
   unscented_points points;
   if (unscented_points_of(view, &c->lens, p, at, axes, &points)) {
+#if USE_ROLLING_SHUTTER
+    s = rolling_unscented_covariance(
+        &points, rolling_rows_at(view, &c->lens, &own, false).shear);
+#else
     s = unscented_covariance(&points);
+#endif
     shift = points.shift;
   } else
 #endif
   {
 #if USE_ROLLING_SHUTTER
-    s = lens_covariance(rolling_rows(view, &c->lens, own, LENS_HOLDS), axes);
+    s = rolling_lens_covariance(
+        rolling_rows_at(view, &c->lens, &own, LENS_HOLDS), axes);
 #else
     s = lens_covariance(lens_rows_at(view, &c->lens, p, LENS_HOLDS), axes);
 #endif

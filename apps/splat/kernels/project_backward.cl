@@ -49,7 +49,11 @@ static shape_gradients jacobian_backward(__constant const splat_view *view,
 #if USE_ROLLING_SHUTTER
   rolling_point own;
   rolling_at(view, lens, g->place, &own);
-  const lens_rows j = rolling_rows(view, lens, own, LENS_HOLDS);
+  // On the still camera's picture, where the dilation is round.
+  const rolling_rows rows = rolling_rows_at(view, lens, &own, LENS_HOLDS);
+  const lens_rows j = rows.still;
+  const splat_gradients still = rolling_still(by, rows.shear);
+  by = &still;
 #else
   const lens_rows j = lens_rows_at(view, lens, g->place, LENS_HOLDS);
 #endif
@@ -119,7 +123,8 @@ static shape_gradients jacobian_backward(__constant const splat_view *view,
                (scale[0] - scale[1]) * (scale[0] + scale[1]) * by_pair[0][1]);
 #if USE_ROLLING_SHUTTER
   // The rows of the Jacobian are constants (docs/cameras.md).
-  const lens_rows free = rolling_rows(view, lens, own, false);
+  const lens_rows free =
+      rolling_moved(rolling_rows_at(view, lens, &own, false));
   to.place = free.x * by->mean.x + free.y * by->mean.y;
 #elif HAS_LENS
   // dL/d(rows): 2 V U diag(s^2) times the axes.

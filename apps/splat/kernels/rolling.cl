@@ -97,25 +97,89 @@ static bool rolling_at(VIEW_SPACE const splat_view *view,
          (fabs(r->moment) >= ROLLING_END || r->left >= ROLLING_LEAST);
 }
 
-// The rows by the point in the axes of the pose. A step of the point moves its
-// moment, too, and with it the camera. The drift is that of the same rows: where
-// they are held for a point far beside the picture, its own drift would be of
-// another place.
-static lens_rows rolling_rows(VIEW_SPACE const splat_view *view,
-                              VIEW_SPACE const splat_lens *lens,
-                              rolling_point r, bool hold) {
+// Of steps on the picture that a camera sees which stands still at the moment,
+// to those on this one: what is exposed later sees the point moved.
+typedef struct {
+  float xx, xy, yx, yy;
+  float det;
+} rolling_shear;
+
+// By rows in the axes of the pose, of a camera that stands still at the moment,
+// and the shear that its motion makes of its picture.
+typedef struct {
+  lens_rows still;
+  rolling_shear shear;
+} rolling_rows;
+
+// 1 + drift way^T / left, left being what the drift leaves of the shutter's way.
+// Added up so, a picture that is pressed together keeps its digits.
+static rolling_shear rolling_shear_by(VIEW_SPACE const splat_shutter *shutter,
+                                      float2 drift) {
+  const float own = 1.0f - rolling_by(shutter, drift);
+  const float left = fmax(own, ROLLING_LEAST);
+  const float one = 1.0f + (left - own);
+  const float2 way = (float2)(shutter->moment[1], shutter->moment[2]);
+  const rolling_shear a = {(one - drift.y * way.y) / left,
+                           drift.x * way.y / left, drift.y * way.x / left,
+                           (one - drift.x * way.x) / left, one / left};
+  return a;
+}
+
+// A step of the point moves its moment, too, and with it the camera. The drift
+// is that of the same rows: where they are held for a point far beside the
+// picture, its own drift would be of another place.
+static rolling_rows rolling_rows_at(VIEW_SPACE const splat_view *view,
+                                    VIEW_SPACE const splat_lens *lens,
+                                    const rolling_point *r, bool hold) {
   VIEW_SPACE const splat_shutter *shutter = rolling_shutter_of(lens);
-  lens_rows j = lens_rows_at(view, lens, r.p, hold);
-  if (fabs(r.moment) < ROLLING_END) {
-    const float2 drift = rolling_drift(&r, j);
-    const float3 by =
-        (shutter->moment[1] * j.x + shutter->moment[2] * j.y) /
-        fmax(1.0f - rolling_by(shutter, drift), ROLLING_LEAST);
-    j.x += drift.x * by;
-    j.y += drift.y * by;
-  }
-  const float angle = shutter->angle * r.moment;
-  j.x = rolling_turned(shutter, angle, j.x);
-  j.y = rolling_turned(shutter, angle, j.y);
+  const lens_rows j = lens_rows_at(view, lens, r->p, hold);
+  const float angle = shutter->angle * r->moment;
+  rolling_rows rows;
+  // Where time stands still, nothing moves.
+  const float2 drift = fabs(r->moment) < ROLLING_END ? rolling_drift(r, j)
+                                                     : (float2)(0.0f, 0.0f);
+  rows.shear = rolling_shear_by(shutter, drift);
+  rows.still.x = rolling_turned(shutter, angle, j.x);
+  rows.still.y = rolling_turned(shutter, angle, j.y);
+  return rows;
+}
+
+// Those of the picture that is drawn.
+static lens_rows rolling_moved(rolling_rows r) {
+  const rolling_shear a = r.shear;
+  const lens_rows j = {a.xx * r.still.x + a.xy * r.still.y,
+                       a.yx * r.still.x + a.yy * r.still.y};
   return j;
+}
+
+// The covariance on the picture that is drawn, from the one that the still camera
+// sees: each row of a picture has the dilation of a camera that stands still.
+// `xx`, `xy`, `yy` are without the dilation, so that a needle keeps its width.
+static screen_covariance rolling_covariance(rolling_shear a,
+                                            screen_covariance still, float xx,
+                                            float xy, float yy) {
+  screen_covariance s;
+  s.xx = xx + DILATION * (a.xx * a.xx + a.xy * a.xy);
+  s.xy = xy + DILATION * (a.xx * a.yx + a.xy * a.yy);
+  s.yy = yy + DILATION * (a.yx * a.yx + a.yy * a.yy);
+  s.det_sharp = still.det_sharp * (a.det * a.det);
+  s.det = still.det * (a.det * a.det);
+  return s;
+}
+
+static screen_covariance rolling_lens_covariance(rolling_rows j,
+                                                 camera_axes axes) {
+  const lens_rows moved = rolling_moved(j);
+  const float3 b =
+      moved.x.x * axes.x + moved.x.y * axes.y + moved.x.z * axes.z;
+  const float3 c =
+      moved.y.x * axes.x + moved.y.y * axes.y + moved.y.z * axes.z;
+  return rolling_covariance(j.shear, lens_covariance(j.still, axes),
+                            dot_in_order(b, b), dot_in_order(b, c),
+                            dot_in_order(c, c));
+}
+
+// The step of the still camera's picture that the shear makes `v` of.
+static float2 rolling_unsheared(rolling_shear a, float2 v) {
+  return (float2)(a.yy * v.x - a.xy * v.y, a.xx * v.y - a.yx * v.x) / a.det;
 }

@@ -113,3 +113,20 @@ unscented_covariance(const unscented_points *points) {
   s.det = det + DILATION * (xx + yy) + DILATION * DILATION;
   return s;
 }
+
+#if USE_ROLLING_SHUTTER
+// The same where the dilation is that of the still camera, whose picture the
+// points are then taken to.
+static screen_covariance rolling_unscented_covariance(unscented_points *points,
+                                                      rolling_shear a) {
+  float xx = 0.0f, xy = 0.0f, yy = 0.0f;
+  for (uint n = 0; n < 7; ++n) {
+    const float2 off = points->off[n];
+    xx += off.x * off.x;
+    xy += off.x * off.y;
+    yy += off.y * off.y;
+    points->off[n] = rolling_unsheared(a, off);
+  }
+  return rolling_covariance(a, unscented_covariance(points), xx, xy, yy);
+}
+#endif

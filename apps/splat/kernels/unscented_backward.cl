@@ -6,7 +6,8 @@ static float3 point_backward(__constant const splat_view *view,
                              __constant const splat_lens *lens,
                              const seen_point *seen, float2 by) {
 #if USE_ROLLING_SHUTTER
-  const lens_rows j = rolling_rows(view, lens, seen->own, false);
+  const lens_rows j =
+      rolling_moved(rolling_rows_at(view, lens, &seen->own, false));
 #else
   const lens_rows j = lens_rows_at(view, lens, seen->p, false);
 #endif
@@ -26,6 +27,15 @@ static bool unscented_backward(__constant const splat_view *view,
   if (!unscented_points_of(view, lens, g->place, place_of(&mean), scaled,
                            &points))
     return false;
+#if USE_ROLLING_SHUTTER
+  // On the still camera's picture, where the dilation is round.
+  const rolling_shear shear =
+      rolling_rows_at(view, lens, &mean.own, false).shear;
+  const splat_gradients still = rolling_still(by, shear);
+  by = &still;
+  for (uint n = 0; n < 7; ++n)
+    points.off[n] = rolling_unsheared(shear, points.off[n]);
+#endif
   const screen_covariance s = unscented_covariance(&points);
   to->opacity = by->opacity * compensation_of(s);
 
@@ -44,12 +54,20 @@ static bool unscented_backward(__constant const splat_view *view,
       by_off[n] +=
           by_compensation(s, by->opacity, g->activated.w, adjugate, off);
 #endif
+#if USE_ROLLING_SHUTTER
+    by_off[n] = rolling_back(shear, by_off[n]);
+#endif
   }
 
   // The ways from the mean's place to the six others add up to six shifts, so of
   // the covariance only the last one's part depends on the shift.
   const float2 by_shift = -2.8284271f * by_off[6];
   to->place = point_backward(view, lens, &mean, -by_shift);
+#if USE_ROLLING_SHUTTER
+  to->place += rolling_dilation_backward(
+      view, lens, &mean.own, shear, by,
+      by_share_kept(s, by->opacity, g->activated.w));
+#endif
   float3 by_axis[3];
   for (uint n = 0; n < 6; ++n) {
     const float2 by_place = 2.0f * UNSCENTED_WEIGHT * by_off[n] +

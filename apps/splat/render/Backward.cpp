@@ -57,8 +57,10 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   };
   if (const Effect *Lens = effects::lensOf(O.Optics))
     Has(*Lens);
-  if (O.Rolling)
+  if (O.Rolling) {
     Has(effects::RollingShutter);
+    Project.Files.emplace_back("rolling_backward.cl");
+  }
   if (O.Through == Spread::Unscented) {
     Has(effects::Unscented);
     Project.Files.emplace_back("unscented_backward.cl");

@@ -291,8 +291,34 @@ TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
   std::vector<std::string> FoundIn{"points-forget-their-shift"};
   if (M == splat::LensModel::Pinhole)
     FoundIn.emplace_back("held-slope-of-no-depth");
+  if (Rolls)
+    FoundIn.emplace_back("shear-forgotten-behind");
   return caseOf(std::move(Name), std::move(Why), std::move(G),
                 std::move(FoundIn));
+}
+
+/// Thinner than a pixel, so that the shutter's shear of the dilation counts.
+TrainingCase rollingDilation() {
+  GradientScene G{{}, lensView(splat::LensModel::Pinhole, {}, 96, 64), {}};
+  G.View.Optics.Shutter = {0, 0.1, 1, {0.1, 0, 0.2}, {-0.3, 0.3, 0.2}};
+  Numbers R(89);
+  for (int I = 0; I < 30; ++I)
+    add(G.Scene,
+        {.Mean = {float(R.uniform(-0.5, 0.5)), float(R.uniform(-0.4, 0.4)),
+                  float(R.uniform(1.5, 2.5))},
+         .Scale = {R.uniform(0.003, 0.02), R.uniform(0.003, 0.02),
+                   R.uniform(0.003, 0.02)},
+         .Quat = R.turn(),
+         .Opacity = 0.8,
+         .Color = R.color()});
+  G.Options.Through = splat::Spread::Unscented;
+  G.Options.Antialiased = true;
+  G.Options.Rolling = true;
+  return caseOf("gradients-of-rolling-dilation",
+                "thinner than a pixel behind a shutter, antialiased: the "
+                "dilation's shear and what it keeps of the opacity move with "
+                "the mean",
+                std::move(G), {"shear-forgotten-behind"});
 }
 
 /// One of each one's points is just in front of the near plane and far beside
@@ -359,6 +385,7 @@ void addGradients(std::vector<TrainingCase> &Cases) {
                                 "gradients-through-points-rolling",
                                 "each point at a moment of its own, which its "
                                 "place moves"));
+  Cases.push_back(rollingDilation());
   Cases.push_back(pointsBeside());
 }
 

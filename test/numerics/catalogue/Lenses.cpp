@@ -351,6 +351,28 @@ HardCase rollingBeside() {
   return C;
 }
 
+/// The picture moves up by 50 px in 96 rows, so that the picture
+/// is pressed together by a third; to the right it is sheared by as much.
+HardCase rollingDilation() {
+  HardCase C = caseOf("rolling-dilation",
+                      "needles and points thinner than a pixel behind a fast "
+                      "shutter: nearly all that is seen is dilation, which is "
+                      "round in each row's own picture",
+                      {}, frontView(128, 96, 100));
+  C.View.Optics.Shutter = {0, 0.1, 1, {}, {-0.5, 0.5, 0.2}};
+  C.Options.Rolling = true;
+  Numbers R(88);
+  for (int I = 0; I < 40; ++I)
+    add(C.Scene, {.Mean = {float(R.uniform(-1, 1)), float(R.uniform(-0.7, 0.7)),
+                           float(R.uniform(2, 3))},
+                  .Scale = {1e-4, I % 2 == 0 ? 1e-4 : 0.1, 1e-3},
+                  .Quat = R.turn(),
+                  .Opacity = 0.9,
+                  .Color = R.color()});
+  C.FoundIn = {"dilation-not-sheared"};
+  return C;
+}
+
 HardCase rollingNearPlane() {
   HardCase C = caseOf("rolling-near-plane",
                       "a camera that moves forward while it exposes: means "
@@ -416,7 +438,8 @@ void addLenses(std::vector<HardCase> &Cases) {
         unscentedWide,   unscentedSeam,    unscentedNeedle,
         unscentedBeside, rollingPinhole,   rollingOpenCv,
         rollingFisheye,  rollingUnscented, rollingFollowed,
-        rollingBeside,   rollingNearPlane, ownNearPlane})
+        rollingBeside,   rollingDilation,  rollingNearPlane,
+        ownNearPlane})
     Cases.push_back(Make());
 }
 
