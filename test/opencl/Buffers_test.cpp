@@ -93,6 +93,39 @@ TEST(Buffers, PartsFillsAndCopiesTouchTheirBytesOnly) {
   EXPECT_EQ(Device.download<int32_t>(Other, Count), WantOther);
 }
 
+TEST(Buffers, PartsThatABufferCannotHaveAreRefused) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  const cl::Buffer Buffer(Device.context(), CL_MEM_READ_WRITE, 4096);
+  const auto Part = [&](std::size_t Origin, std::size_t Size,
+                        cl_mem_flags Flags = 0) {
+    const cl_buffer_region Region = {Origin, Size};
+    cl_int Status = CL_SUCCESS;
+    const cl_mem Made = clCreateSubBuffer(
+        Buffer(), Flags, CL_BUFFER_CREATE_TYPE_REGION, &Region, &Status);
+    if (Made)
+      clReleaseMemObject(Made);
+    return Status;
+  };
+  EXPECT_EQ(Part(0, 4096), CL_SUCCESS);
+  EXPECT_EQ(Part(3968, 128), CL_SUCCESS);
+  EXPECT_EQ(Part(3968, 129), CL_INVALID_VALUE);
+  EXPECT_EQ(Part(4096, 1), CL_INVALID_VALUE);
+  // Origin and size together are 128, modulo 2 to the power of 64.
+  EXPECT_EQ(Part(std::size_t{0} - 128, 256), CL_INVALID_VALUE);
+  EXPECT_EQ(Part(128, std::size_t{0} - 64), CL_INVALID_VALUE);
+  EXPECT_EQ(Part(0, 128, CL_MEM_READ_ONLY | CL_MEM_HOST_NO_ACCESS), CL_SUCCESS);
+  for (const cl_mem_flags Flags : {
+           cl_mem_flags{CL_MEM_READ_ONLY | CL_MEM_WRITE_ONLY},
+           cl_mem_flags{CL_MEM_READ_ONLY | CL_MEM_READ_WRITE},
+           cl_mem_flags{CL_MEM_HOST_READ_ONLY | CL_MEM_HOST_NO_ACCESS},
+           cl_mem_flags{CL_MEM_USE_HOST_PTR},
+           cl_mem_flags{CL_MEM_COPY_HOST_PTR},
+           cl_mem_flags{1} << 40,
+       })
+    EXPECT_EQ(Part(0, 128, Flags), CL_INVALID_VALUE) << Flags;
+}
+
 TEST(Buffers, CommandsWaitForTheirEvents) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);

@@ -265,6 +265,34 @@ TEST_F(Builds, TheLogHasEveryErrorWithItsLineAndPlace) {
   Check();
 }
 
+TEST_F(Builds, KernelsAreMadeOfLinkedProgramsOnly) {
+  const cl::Program Compiled = program(Good);
+  ASSERT_EQ(compile(Compiled), CL_SUCCESS);
+  const cl_program Input = Compiled();
+  cl_int Status = CL_INVALID_VALUE;
+  const cl::Program Library(clLinkProgram(Device.context()(), 0, nullptr,
+                                          "-create-library", 1, &Input, nullptr,
+                                          nullptr, &Status));
+  ASSERT_EQ(Status, CL_SUCCESS);
+  for (const cl_program P : {Compiled(), Library()}) {
+    EXPECT_EQ(clCreateKernel(P, "f", &Status), nullptr);
+    EXPECT_EQ(Status, CL_INVALID_PROGRAM_EXECUTABLE);
+    cl_uint Number = 0;
+    EXPECT_EQ(clCreateKernelsInProgram(P, 0, nullptr, &Number),
+              CL_INVALID_PROGRAM_EXECUTABLE);
+    for (const cl_program_info What :
+         {CL_PROGRAM_NUM_KERNELS, CL_PROGRAM_KERNEL_NAMES})
+      EXPECT_EQ(clGetProgramInfo(P, What, 0, nullptr, nullptr),
+                CL_INVALID_PROGRAM_EXECUTABLE)
+          << What;
+  }
+  const cl_program Part = Library();
+  const cl::Program Linked(clLinkProgram(Device.context()(), 0, nullptr, "", 1,
+                                         &Part, nullptr, nullptr, &Status));
+  ASSERT_EQ(Status, CL_SUCCESS);
+  EXPECT_EQ(Linked.getInfo<CL_PROGRAM_KERNEL_NAMES>(), "f");
+}
+
 TEST_F(Builds, AFailedLinkHasAProgramWithALog) {
   const cl::Program Caller = program(
       "int other(int); kernel void f(global int *o) { *o = other(1); }");
