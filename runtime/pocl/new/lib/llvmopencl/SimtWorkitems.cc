@@ -8,6 +8,7 @@
 #include "ProgramVariables.h"
 #include "SharedVariables.h"
 #include "SimtBlocks.h"
+#include "SimtBooleans.h"
 #include "VariableUniformityAnalysis.h"
 #include "VariableUniformityAnalysisResult.hh"
 #include "Workgroup.h"
@@ -127,6 +128,7 @@ void addFirstSimtPasses(PassBuilder &PB) {
   PB.registerPipelineStartEPCallback(
       [](ModulePassManager &Passes, OptimizationLevel) {
         Passes.addPass(vorion::ShareVariables());
+        Passes.addPass(createModuleToFunctionPassAdaptor(SimtBooleans()));
       });
 }
 
