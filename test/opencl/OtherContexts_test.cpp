@@ -46,11 +46,6 @@ protected:
   static cl::Sampler sampler(const TestDevice &Device) {
     return {Device.context(), CL_FALSE, CL_ADDRESS_CLAMP, CL_FILTER_NEAREST};
   }
-  template <typename T> cl_int set(cl_uint Index, const T &Object) const {
-    const auto Handle = Object();
-    return clSetKernelArg(K(), Index, sizeof Handle, &Handle);
-  }
-
   TestDevice Ours, Theirs;
   cl::Program Code;
   cl::Kernel K;
@@ -62,14 +57,14 @@ protected:
 TEST_F(OtherContexts, TheirObjectsAreNoArguments) {
   const cl::Buffer Whole = buffer(Theirs);
   cl_buffer_region Region = {0, 128};
-  EXPECT_EQ(set(0, Whole), CL_INVALID_MEM_OBJECT);
-  EXPECT_EQ(
-      set(0, cl::Buffer(Whole).createSubBuffer(
-                 CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &Region)),
-      CL_INVALID_MEM_OBJECT);
-  EXPECT_EQ(set(1, Whole), CL_INVALID_MEM_OBJECT);
-  EXPECT_EQ(set(2, image(Theirs)), CL_INVALID_MEM_OBJECT);
-  EXPECT_EQ(set(3, sampler(Theirs)), CL_INVALID_SAMPLER);
+  EXPECT_EQ(K.setArg(0, Whole), CL_INVALID_MEM_OBJECT);
+  EXPECT_EQ(K.setArg(0, cl::Buffer(Whole).createSubBuffer(
+                            CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
+                            &Region)),
+            CL_INVALID_MEM_OBJECT);
+  EXPECT_EQ(K.setArg(1, Whole), CL_INVALID_MEM_OBJECT);
+  EXPECT_EQ(K.setArg(2, image(Theirs)), CL_INVALID_MEM_OBJECT);
+  EXPECT_EQ(K.setArg(3, sampler(Theirs)), CL_INVALID_SAMPLER);
   // The arguments that were set before are still there.
   EXPECT_EQ(Ours.queue().enqueueNDRangeKernel(K, cl::NullRange, 16),
             CL_SUCCESS);
