@@ -32,6 +32,8 @@ uint32_t writable(const CsrInfo &C) {
     return 0x7;
   case CSR_FCSR:
     return 0xFF;
+  case CSR_LOCAL_OFFSET: // multiples of 128 within local memory
+    return WarpRunner::smallShape().LocalBytes - 128;
   default:
     break;
   }

@@ -5,7 +5,6 @@
 
 #include <CL/cl_vorion.h>
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -115,55 +114,6 @@ kernel void change(numbers n, global int *out) {
   const auto Got = Device.download<int32_t>(Out, 100);
   for (int I = 0; I < 100; ++I)
     EXPECT_EQ(Got[I], 10 + I);
-}
-
-/// The standard leaves open what a bool is whose byte is neither 0 nor 1.
-/// Programs have masks of such bytes all the same.
-TEST(Launches, ABoolOfAnyByteButZeroIsTrue) {
-  const TestDevice Device;
-  VORION_REQUIRE_DEVICE(Device);
-  for (const char *Options : {"", "-cl-opt-disable"}) {
-    std::string Log;
-    const cl::Program Program = Device.build(
-        "struct item { int value; bool is_set; };\n"
-        "kernel void choose(global const bool *mask, global int *out,\n"
-        "                   global const struct item *items) {\n"
-        "  int i = get_global_id(0), v = items[i].value;\n"
-        "  if (mask[i]) { v *= 3; out[64 + i] = v; }\n"
-        "  else { v = 1000 / v; }\n"
-        "  if (items[i].is_set) out[128 + i] = v + 1;\n"
-        "  out[i] = v;\n"
-        "}",
-        Log, Options);
-    ASSERT_EQ(Log, "");
-    struct Item {
-      int32_t Value;
-      uint8_t IsSet;
-    };
-    std::vector<uint8_t> Mask(64);
-    std::vector<Item> Items(64);
-    std::vector<int32_t> Want(192, -1);
-    constexpr std::array<uint8_t, 7> Bytes = {0, 1, 2, 0x80, 0xff, 6, 0};
-    for (std::size_t I = 0; I < 64; ++I) {
-      Mask[I] = Bytes[I % 7];
-      Items[I] = {static_cast<int32_t>(I) + 1, Bytes[(I + 3) % 7]};
-      int32_t Value = Items[I].Value;
-      Value = Mask[I] ? Value * 3 : 1000 / Value;
-      if (Mask[I])
-        Want[64 + I] = Value;
-      if (Items[I].IsSet)
-        Want[128 + I] = Value + 1;
-      Want[I] = Value;
-    }
-    const cl::Buffer In = Device.upload(Mask), Of = Device.upload(Items),
-                     Out = Device.upload(std::vector<int32_t>(192, -1));
-    cl::Kernel K(Program, "choose");
-    K.setArg(0, In);
-    K.setArg(1, Out);
-    K.setArg(2, Of);
-    Device.run(K, 64, 16);
-    EXPECT_EQ(Device.download<int32_t>(Out, 192), Want) << Options;
-  }
 }
 
 TEST(Launches, StaticLocalMemoryLiesBesideArguments) {

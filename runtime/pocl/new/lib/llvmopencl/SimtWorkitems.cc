@@ -8,7 +8,6 @@
 #include "ProgramVariables.h"
 #include "SharedVariables.h"
 #include "SimtBlocks.h"
-#include "SimtBooleans.h"
 #include "VariableUniformityAnalysis.h"
 #include "VariableUniformityAnalysisResult.hh"
 #include "Workgroup.h"
@@ -128,7 +127,6 @@ void addFirstSimtPasses(PassBuilder &PB) {
   PB.registerPipelineStartEPCallback(
       [](ModulePassManager &Passes, OptimizationLevel) {
         Passes.addPass(vorion::ShareVariables());
-        Passes.addPass(createModuleToFunctionPassAdaptor(SimtBooleans()));
       });
 }
 
