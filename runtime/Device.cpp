@@ -29,6 +29,12 @@ constexpr std::pair<uint64_t isasim::LaunchParts::*, const char *>
                          {&isasim::LaunchParts::Context,
                           "the memory that a kernel keeps across barriers"}};
 
+bool hasLocalArgs(const isasim::Kernel &K) {
+  return std::ranges::any_of(K.Args, [](const isasim::KernelArg &Arg) {
+    return Arg.Kind == VX_ARG_LOCAL;
+  });
+}
+
 isasim::LaunchShape shapeOf(const isasim::Kernel &K,
                             const vx_launch_params &P) {
   isasim::LaunchShape S{.WorkDim = P.work_dim};
@@ -37,9 +43,7 @@ isasim::LaunchShape shapeOf(const isasim::Kernel &K,
   std::ranges::copy(P.global_offset, S.GlobalOffset.begin());
   if (P.local_bytes != 0)
     S.LocalBytes = P.local_bytes;
-  else if (std::ranges::none_of(K.Args, [](const isasim::KernelArg &Arg) {
-             return Arg.Kind == VX_ARG_LOCAL;
-           }))
+  else if (!hasLocalArgs(K))
     S.LocalBytes = K.LocalBytes;
   if (P.part_of) {
     isasim::WholeRange &R = S.PartOf.emplace();
@@ -355,9 +359,7 @@ void Device::localUsed(uint64_t Bytes) {
 void Device::nameBuffers(const isasim::Kernel &Kernel, const void *Args) {
   if (!Watch->observes())
     return;
-  bool HasLocals = false;
   for (const isasim::KernelArg &Arg : Kernel.Args) {
-    HasLocals |= Arg.Kind == VX_ARG_LOCAL;
     if (Arg.Kind != VX_ARG_GLOBAL)
       continue;
     uint32_t Address = 0;
@@ -367,7 +369,7 @@ void Device::nameBuffers(const isasim::Kernel &Kernel, const void *Args) {
                        fmt::format("buffer '{}' of {}", Arg.Name, Kernel.Name));
   }
   // Else vx_image_place_locals has said it.
-  if (!HasLocals)
+  if (!hasLocalArgs(Kernel))
     Watch->localUsed(Kernel.LocalBytes);
 }
 

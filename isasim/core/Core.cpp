@@ -6,6 +6,7 @@
 #include "core/Rounding.h"
 #include "core/Warps.h"
 #include "timing/TraceWriter.h"
+#include "vorion/isasim/Launch.h"
 #include "vorion/isasim/TrapCause.h"
 
 #include <algorithm>
@@ -18,10 +19,6 @@ static constexpr uint64_t LongestStretch = 1 << 14;
 
 /// What is shorter says little of where the time goes.
 static constexpr uint64_t ShortestStretch = 1 << 6;
-
-/// What vx_local_offset is a multiple of, in bytes: what is left then has room
-/// for any access (Region::Bytes), and the banks of the core's local memory.
-static constexpr uint32_t LocalStep = 128;
 
 Core::Core(const Config &C, unsigned IdIn)
     : Shape(C), Id(IdIn), Warps(C.WarpsPerCore),
@@ -207,7 +204,10 @@ bool Core::arrive(WarpState &S, uint32_t BarrierId, uint32_t Count) {
 }
 
 void Core::moveLocal(WarpState &S, uint32_t Offset) {
-  S.LocalOffset = Offset % Local.Bytes / LocalStep * LocalStep;
+  // A multiple of what a launch aligns parts of local memory to: what is left
+  // then has room for any access (Region::Bytes), and the core's banks.
+  constexpr uint32_t Step = LaunchAlignment;
+  S.LocalOffset = Offset % Local.Bytes / Step * Step;
   Region &Own = Views[S.WarpId].Local;
   Own.Bytes = Local.Bytes - S.LocalOffset;
   Own.Host = Local.Host + S.LocalOffset;

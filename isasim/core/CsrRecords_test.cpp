@@ -4,6 +4,7 @@
 #include "testing/ElfBuilder.h"
 #include "testing/Encode.h"
 #include "testing/WarpRunner.h"
+#include "vorion/isasim/Launch.h"
 #include "vorion/isasim/Machine.h"
 
 #include <functional>
@@ -32,8 +33,8 @@ uint32_t writable(const CsrInfo &C) {
     return 0x7;
   case CSR_FCSR:
     return 0xFF;
-  case CSR_LOCAL_OFFSET: // multiples of 128 within local memory
-    return WarpRunner::smallShape().LocalBytes - 128;
+  case CSR_LOCAL_OFFSET: // multiples of it within local memory
+    return WarpRunner::smallShape().LocalBytes - uint32_t{LaunchAlignment};
   default:
     break;
   }

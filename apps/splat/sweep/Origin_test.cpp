@@ -40,13 +40,19 @@ TEST(Origin, AViewIsWhatItSeesNotItsName) {
   EXPECT_NE(hashView(A), hashView(B));
 }
 
-// What a lens bends is trained on as its undistorted picture.
-TEST(Origin, ACaptureIsWhatItsLensesAreToo) {
-  const TestFolder F;
+Capture oneView(const TestFolder &F) {
   Capture C;
   CaptureView &View = C.Views.emplace_back();
   View.Pose = Camera::ahead(64, 48, 50);
   View.Picture = F.write("a.png", "a");
+  return C;
+}
+
+// What a lens bends is trained on as its undistorted picture.
+TEST(Origin, ACaptureIsWhatItsLensesAreToo) {
+  const TestFolder F;
+  Capture C = oneView(F);
+  CaptureView &View = C.Views.front();
   const auto Straight = hashCapture(C);
   View.Optics = {LensModel::OpenCv, {0.1}};
   const auto Bent = hashCapture(C);
@@ -56,10 +62,8 @@ TEST(Origin, ACaptureIsWhatItsLensesAreToo) {
 
 TEST(Origin, ACaptureIsWhatItsMasksAreToo) {
   const TestFolder F;
-  Capture C;
-  CaptureView &View = C.Views.emplace_back();
-  View.Pose = Camera::ahead(64, 48, 50);
-  View.Picture = F.write("a.png", "a");
+  Capture C = oneView(F);
+  CaptureView &View = C.Views.front();
   const auto Whole = hashCapture(C);
   View.Mask = F.write("mask.png", "1");
   const auto One = hashCapture(C);

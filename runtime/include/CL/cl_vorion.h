@@ -32,9 +32,9 @@ extern "C" {
  * CL_QUEUE_PROFILING_ENABLE. */
 #define CL_EVENT_TIME_REPORT_VORION 0x4F80
 
-/* What clGetDeviceInfo tells besides: cl_uint. So many work-groups run on each
- * compute unit, which is a core, at the same time, where they leave one another
- * local memory, and as long as the kernel does not use the rasterizer. */
+/* For clGetDeviceInfo: a cl_uint, how many work-groups a compute unit runs at
+ * the same time. A compute unit is a core. It runs fewer if their local memory
+ * does not fit together, and one if the kernel uses the rasterizer. */
 #define CL_DEVICE_WARPS_PER_CORE_VORION 0x4F81
 
 /* A line of a program's build log contains this, and the reason after it, if
