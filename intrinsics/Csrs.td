@@ -20,7 +20,7 @@ def CSR_MHARTID : Csr<"mhartid", 0xF14, Lane, ReadOnly, 0, "(core * warps + warp
 let Extension = "zicsr" in
 def CSR_MSCRATCH : Csr<"mscratch", 0x340, Core, Scalar, 1, "Address of the launch block, 0 without one.">;
 
-def CSR_LOCAL_OFFSET : Csr<"vx_local_offset", 0x800, Warp, Scalar, 1, "Where the warp's local memory begins within its core's, in bytes: a multiple of 128, modulo the core's. 0 at reset.">;
+def CSR_LOCAL_OFFSET : Csr<"vx_local_offset", 0x8C0, Warp, Scalar, 1, "Where the warp's local memory begins within its core's, in bytes: a multiple of 128, modulo the core's. 0 at reset.">;
 def CSR_THREAD_ID : Csr<"vx_thread_id", 0xCC0, Lane, ReadOnly, 0, "Lane number within the warp.">;
 def CSR_WARP_ID : Csr<"vx_warp_id", 0xCC1, Warp, ReadOnly, 1, "Warp number within the core.">;
 def CSR_CORE_ID : Csr<"vx_core_id", 0xCC2, Core, ReadOnly, 1, "Core number within the device.">;
