@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Prints what `splat accuracy` measured as Markdown: a row a setting, over all views.
 
-usage: accuracy_table.py FOLDER/accuracy.json [--products]
+usage: accuracy_table.py FOLDER/accuracy.json [--products N] [--at-least DB]
 
 PSNR and SSIM are the worst view's, the largest error and the share of pixels off likewise; times are sums over the views, against the
-default's. Without --products only the default and single choices.
+default's. After the default and the single choices come the N combinations that are fastest at equal area and keep DB on every view.
 """
 
 import argparse
@@ -20,7 +20,8 @@ def share(value, base):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file")
-    parser.add_argument("--products", action="store_true", help="combinations too")
+    parser.add_argument("--products", type=int, default=0, help="how many combinations (default: %(default)s)")
+    parser.add_argument("--at-least", type=float, default=50, help="the least PSNR of a combination, dB (default: %(default)s)")
     args = parser.parse_args()
     with open(args.file, encoding="utf-8") as f:
         points = json.load(f)["points"]
@@ -28,8 +29,8 @@ def main():
     for point in points:
         settings.setdefault(point["setting"], []).append(point)
 
-    def worst(name, pick, key="errors", none=None):
-        values = [none if p[key][name] is None else p[key][name] for p in settings[setting]]
+    def worst(name, pick, none=None):
+        values = [none if p["errors"][name] is None else p["errors"][name] for p in settings[setting]]
         return pick(values)
 
     def total(setting, axis):
@@ -40,9 +41,9 @@ def main():
     energy = ("energy of the chip | ", "--:|") if has_energy else ("", "")
     print(f"| setting | PSNR, dB | SSIM | largest error | pixels off, % | cycles | at equal area | kernels only | {energy[0]}lane area |")
     print(f"|---|--:|--:|--:|--:|--:|--:|--:|{energy[1]}--:|")
-    for setting in settings:
-        if "," in setting and not args.products:
-            continue
+    kept = [s for s in settings if "," in s and all(p["errors"]["psnr_db"] is None or p["errors"]["psnr_db"] >= args.at_least for p in settings[s])]
+    fastest = sorted(kept, key=lambda s: total(s, "equal_area_cycles"))[:args.products]
+    for setting in [s for s in settings if "," not in s] + fastest:
         times = {axis: (f"{total(setting, axis):,.0f}" if total(setting, axis) and setting == "default"
                         else share(total(setting, axis), total("default", axis)))
                  for axis in ("cycles", "equal_area_cycles", "cores_cycles")}

@@ -153,7 +153,7 @@ warp:
     add     s7, s7, t0          # this group's linear number
     mul     s8, s8, s9
     bgeu    s7, s6, idle
-    j       next_group
+    jump    next_group, t0      # an image may be larger than j reaches
 idle:
     vx_tmc  zero
     .cfi_endproc

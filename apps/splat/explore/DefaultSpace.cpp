@@ -9,6 +9,7 @@ std::string_view defaultSpace() {
     "clusters": {"key": "clusters", "values": [2, 4]},
     "sockets": {"key": "sockets_per_cluster", "values": [1, 4]},
     "cores": {"key": "cores_per_socket", "values": [2, 8]},
+    "warps": {"key": "warps_per_core", "values": [2, 4]},
     "dcache": {"key": "timing.core.dcache_kib", "values": [16]},
     "icache": {"key": "timing.socket.icache_kib", "values": [8, 32]},
     "queue": {"key": "raster.queue_depth", "values": [2, 16]},

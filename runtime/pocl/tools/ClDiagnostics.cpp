@@ -15,10 +15,11 @@ namespace {
 
 constexpr const char *Wanted = ", expected OpenCL C that compiles";
 constexpr const char *WantedModule = ", expected a module that can be built";
-/// What the platform says of a kernel that it cannot compile, and of what
-/// cannot.
+/// What the platform says of a kernel that it cannot make an image of, and of
+/// which tool cannot.
 constexpr std::string_view KernelRefused = "vorion: error: ";
 constexpr std::string_view CompilerFailed = "vorion-clang failed";
+constexpr std::string_view LinkerFailed = "vorion-link failed";
 
 std::vector<std::string> linesOf(const std::string &Text) {
   std::vector<std::string> Lines;
@@ -84,7 +85,8 @@ Error compilerError(const std::string &Input, const std::string &Log,
 }
 
 std::string machineLog(const std::string &Output) {
-  const std::size_t Refused = Output.find(CompilerFailed);
+  const std::size_t Refused =
+      std::min(Output.find(CompilerFailed), Output.find(LinkerFailed));
   const std::size_t Begin = Output.find('\n', Refused);
   if (Refused == std::string::npos || Begin == std::string::npos)
     return {};
@@ -124,13 +126,14 @@ Error kernelError(const std::string &Input, const std::string &Output) {
   if (const auto Reason = after(Output, KernelRefused)) {
     if (Reason->find(", expected ") != std::string::npos)
       return {Input, *Reason};
-    const std::size_t Compiler = Reason->find(CompilerFailed);
     // "kernel NAME: FOLDER/vorion-clang failed"
-    return {Input, (Compiler == std::string::npos
-                        ? *Reason
-                        : Reason->substr(0, Reason->find(": ")) +
-                              " cannot be compiled for the machine") +
-                       ", expected a kernel that can"};
+    const std::string Kernel = Reason->substr(0, Reason->find(": "));
+    std::string Said = *Reason;
+    if (Reason->find(CompilerFailed) != std::string::npos)
+      Said = Kernel + " cannot be compiled for the machine";
+    else if (Reason->find(LinkerFailed) != std::string::npos)
+      Said = Kernel + " cannot be linked";
+    return {Input, Said + ", expected a kernel that can"};
   }
   return {Input, "no code was made of it, expected at least one kernel"};
 }
