@@ -85,6 +85,13 @@ TEST_F(ImagesOfBuffers, ThatCannotBeAreRefused) {
   EXPECT_EQ(Status, CL_INVALID_IMAGE_DESCRIPTOR);
   create(Image(), Pitch);
   EXPECT_EQ(Status, CL_INVALID_OPERATION);
+  cl_image_desc OfNone{};
+  OfNone.image_type = CL_MEM_OBJECT_IMAGE1D_BUFFER;
+  OfNone.image_width = Width;
+  EXPECT_EQ(clCreateImage(Device.context()(), CL_MEM_READ_WRITE, &Format,
+                          &OfNone, nullptr, &Status),
+            nullptr);
+  EXPECT_EQ(Status, CL_INVALID_IMAGE_DESCRIPTOR);
 }
 
 TEST_F(ImagesOfBuffers, AreReadAndWrittenByKernels) {

@@ -71,6 +71,20 @@ TEST_F(OtherContexts, TheirObjectsAreNoArguments) {
   EXPECT_EQ(Ours.queue().finish(), CL_SUCCESS);
 }
 
+TEST_F(OtherContexts, TheirProgramsAreNotLinked) {
+  cl::Program Own(Ours.context(), "int f(void); kernel void k(global int *b) "
+                                  "{ b[0] = f(); }");
+  cl::Program Foreign(Theirs.context(), "int f(void) { return 3; }");
+  ASSERT_EQ(Own.compile(), CL_SUCCESS);
+  ASSERT_EQ(Foreign.compile(), CL_SUCCESS);
+  const std::array<cl_program, 2> Parts = {Own(), Foreign()};
+  cl_int Status = CL_SUCCESS;
+  EXPECT_EQ(clLinkProgram(Ours.context()(), 0, nullptr, "", 2, Parts.data(),
+                          nullptr, nullptr, &Status),
+            nullptr);
+  EXPECT_EQ(Status, CL_INVALID_PROGRAM);
+}
+
 /// Every function that takes a wait list, by its name.
 TEST_F(OtherContexts, WaitListsAreHeldAgainstTheQueue) {
   const cl::Buffer A = buffer(Ours), B = buffer(Ours);
