@@ -10,6 +10,7 @@ default's. After the default and the single choices come the N combinations that
 import argparse
 import json
 
+import clocked
 import command_line
 
 
@@ -56,6 +57,7 @@ def main():
         print(f"| {setting} | {decibels:.1f} | {worst('ssim', min):.6f} | {worst('largest', max):.2g} "
               f"| {100 * worst('off_share', max):.3f} | {times['cycles']} | {times['equal_area_cycles']} | {times['cores_cycles']} "
               f"| {energy}{100 * settings[setting][0]['lane_area_relative']:.1f} % |")
+    clocked.say(point["clocked_machine"] for point in points)
 
 
 if __name__ == "__main__":

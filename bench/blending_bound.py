@@ -15,6 +15,7 @@ import os
 import sys
 import tempfile
 
+import clocked
 import command_line
 import scenes
 import timed_frame
@@ -44,7 +45,7 @@ def draw(args, scene, view, folder, variables):
 
 
 def measure(args, channels, scene, view, folder):
-    """Cycles, by the heads of the table, and the largest of the three that bound blending."""
+    """Cycles, by the heads of the table, the largest of the three that bound blending, and the machine's name."""
     tiles = os.path.join(folder, "tiles")
     variables = {"VORION_CONFIG": args.config, "VORION_TILES": tiles, **({"VORION_SET": args.set} if args.set else {})}
     found = draw(args, scene, view, folder, variables)
@@ -54,7 +55,7 @@ def measure(args, channels, scene, view, folder):
     bounds = {"share of all tiles": sum(cycles) / rasterizers, "longest tile": max(cycles),
               "DRAM": blend["dram"]["bus_ps"] / channels * whole["clock_mhz"] / 1e6}
     return {"blending, kcycles": blend["cycles"], "kernels in front of it": blend["cycles"] - rasterize,
-            "rasterizers, dealt by cycles": dealt(sorted(cycles, reverse=True), rasterizers), **bounds}, max(bounds.values())
+            "rasterizers, dealt by cycles": dealt(sorted(cycles, reverse=True), rasterizers), **bounds}, max(bounds.values()), clocked.name(whole)
 
 
 def main():
@@ -65,16 +66,17 @@ def main():
     parser.add_argument("--scenes", nargs="+", default=SCENES, choices=scenes.known() or None)
     args = parser.parse_args()
     channels = timed_frame.machine(args.config)["timing"]["dram"]["channels"]
-    printed = False
+    names = []
     with tempfile.TemporaryDirectory() as folder:
         for scene in map(scenes.shared, args.scenes):
             for view in scene.views:
-                one, bound = measure(args, channels, scene, view, folder)
-                if not printed:
+                one, bound, name = measure(args, channels, scene, view, folder)
+                if not names:
                     print("| view | " + " | ".join(one) + " | reached |\n|---|" + "--:|" * (len(one) + 1))
-                    printed = True
                 print(f"| {scene.name} {view} | " + " | ".join(f"{cycles / 1e3:.0f}" for cycles in one.values())
                       + f" | {100 * bound / one['blending, kcycles']:.0f} % |", flush=True)
+                names.append(name)
+    clocked.say(names)
 
 
 if __name__ == "__main__":

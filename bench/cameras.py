@@ -15,6 +15,7 @@ import os
 import subprocess
 import tempfile
 
+import clocked
 import command_line
 
 # Ordinary lenses: a wide camera's distortion as calibrations find it, and all that the model has.
@@ -76,8 +77,7 @@ def main():
             if not first:
                 first, clock = found, found["clock"]
                 print(f"{args.view} of {os.path.basename(args.scene)}, {info['gaussians']:,} Gaussians, "
-                      f"{view['width']}x{view['height']}, machine {clock['machine']}, "
-                      f"version {clock['clock_version']} of the clock\n")
+                      f"{view['width']}x{view['height']}, on {clocked.name(clock)}\n")
                 print("| camera | seen | pairs | cycles of `project` | more | of the frame | more |\n"
                       "|---|--:|--:|--:|--:|--:|--:|")
             print(row(name, found, first), flush=True)

@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 
+import clocked
 import command_line
 import kept
 import scenes
@@ -74,7 +75,7 @@ def draw(options, scene, view, path):
         with open(report, encoding="utf-8") as file:
             said = json.load(file)
         with open(picture, "rb") as file:
-            row = {"picture": hashlib.sha256(file.read()).hexdigest(), "cycles": {"frame": said["time"]["sum"]["cycles"]},
+            row = {"machine": clocked.name(said["time"]["sum"]), "picture": hashlib.sha256(file.read()).hexdigest(), "cycles": {"frame": said["time"]["sum"]["cycles"]},
                    "instructions": {"frame": said["total"]["counters"]["warp_instructions"]}}
         code = functions(resources)
     for stage in said["time"]["stages"]:
@@ -98,7 +99,7 @@ def run_sample(options, program):
                        stdout=subprocess.DEVNULL)
         with open(stats, encoding="utf-8") as file:
             said = json.load(file)
-    return {"cycles": {"all kernels": sum(run["time"]["cycles"] for run in said["runs"])},
+    return {"machine": clocked.name(said["runs"][0]["time"]), "cycles": {"all kernels": sum(run["time"]["cycles"] for run in said["runs"])},
             "instructions": {"all kernels": said["total"]["warp_instructions"]}}
 
 
@@ -148,6 +149,7 @@ def cycles_table(found, machine, columns, parts):
     print_table(["part off"] + [f"{ran.replace(':', ' ')}: {what}" for ran, what in columns],
                 [[part] + [f"{was / 1e6:.3f}" if part == "none" else change(found[machine, ran][part]["cycles"][what], was)
                            for (ran, what), was in zip(columns, whole)] for part in parts])
+    clocked.say(found[machine, ran][part]["machine"] for ran, _ in columns for part in parts)
 
 
 def main():

@@ -14,6 +14,7 @@ import os
 import sys
 import tempfile
 
+import clocked
 import command_line
 import scenes
 import timed_frame
@@ -34,7 +35,7 @@ def figures(found):
     time = found["time"]
     return {"picture": found["result_fnv1a64"], "busy": max(sum(one[reason] for reason in BUSY) for one in time["sum"]["rasterizers"]),
             "blend": next(stage["time"]["cycles"] for stage in time["stages"] if stage["name"] == "blend"),
-            "cycles": time["sum"]["cycles"], "joules": found["energy"]["chip_joules"]["value"]}
+            "machine": clocked.name(time["sum"]), "cycles": time["sum"]["cycles"], "joules": found["energy"]["chip_joules"]["value"]}
 
 
 def draw(scene, machine, cameras, deal, folder):
@@ -59,6 +60,7 @@ def main():
     parser.add_argument("--turns", nargs="+", type=float, default=[0, 1, 3, 15])
     args = parser.parse_args()
     print("| view | busiest, Mcycles | | blending, Mcycles | | frame, Mcycles | | chip, mJ | |\n|---|" + "--:|" * 8)
+    names = []
     with tempfile.TemporaryDirectory() as folder:
         for machine in args.machines:
             for scene in map(scenes.shared, args.scenes):
@@ -67,9 +69,11 @@ def main():
                     for turn in args.turns:
                         pair = [turned(camera, -turn), camera]
                         lists, last = (draw(scene, machine, pair, deal, folder) for deal in ("lists", "last-frame"))
+                        names.append(last[1]["machine"])
                         if turn == args.turns[0]:
                             row(f"{name}: none before it", lists[0], last[0])
                         row(f"{name}: turned by {turn:g} degrees", lists[1], last[1])
+    clocked.say(names)
 
 
 if __name__ == "__main__":

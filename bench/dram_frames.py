@@ -15,6 +15,7 @@ import os
 import sys
 import tempfile
 
+import clocked
 import command_line
 import timed_frame
 
@@ -80,6 +81,7 @@ def main():
         same = print_table(("standard", "channels"), standards, render, default)
         print()
         same &= print_table(("map", "bytes a channel"), maps, render, default)
+    clocked.say([clocked.name(default[0])])
     if not same:
         print("dram_frames.py: error: pictures differ, expected the same bits with every memory", file=sys.stderr)
     return 0 if same else 1

@@ -22,6 +22,7 @@ import subprocess
 import sys
 import tempfile
 
+import clocked
 import command_line
 import kept
 import scenes
@@ -74,6 +75,7 @@ def run_once(args, scene, view, mode, cache):
               "seconds_by_stage": {s["name"]: s["seconds"] for s in full["stages"]}}
     if args.clock:
         result["cycles"] = full["time"]["sum"]["cycles"]
+        result["clocked_machine"] = clocked.name(full["time"]["sum"])
     return result
 
 
@@ -108,6 +110,8 @@ def compare(args):
             cells += [f"{runs[m]['processor_seconds']:.2f}" for m in MODES] + ["yes" if same else "NO"]
             print("| " + " | ".join(cells) + " |", flush=True)
             rows.append(runs)
+    if args.clock and rows:
+        clocked.say(run["clocked_machine"] for runs in rows for run in runs.values())
     return rows, differing
 
 

@@ -9,6 +9,7 @@ import os
 import sys
 import tempfile
 
+import clocked
 import command_line
 import timed_frame
 
@@ -64,10 +65,15 @@ def main():
     parser.add_argument("--only", default="", help="rows that hold this text")
     chosen = parser.parse_args()
     print("| scene, view | machine | frames/s | chip, mJ | all, mJ | chip, W | peak of the chip, W |\n|---|---|--:|--:|--:|--:|--:|")
+    names = []
     with tempfile.TemporaryDirectory() as folder:
         for frame in FRAMES:
             if chosen.only in f"{' '.join(frame[:4])} {' '.join(frame[4])}":
-                print(row(frame, draw(chosen.scenes, frame, folder)), flush=True)
+                found = draw(chosen.scenes, frame, folder)
+                names.append(clocked.name(found["time"]["sum"]))
+                print(row(frame, found), flush=True)
+    if names:
+        clocked.say(names)
 
 
 if __name__ == "__main__":

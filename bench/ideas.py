@@ -10,6 +10,7 @@ import argparse
 import sys
 import tempfile
 
+import clocked
 import command_line
 import timed_frame
 
@@ -44,7 +45,7 @@ def draw(args, settings, options, folder):
         sys.exit(f"ideas.py: error: {error}")
     busy = sum(one[reason] for one in found["time"]["sum"]["rasterizers"] for reason in BUSY)
     blend = next(stage["time"]["cycles"] for stage in found["time"]["stages"] if stage["name"] == "blend")
-    return {"picture": found["result_fnv1a64"], "busy": busy, "blend": blend, "cycles": found["time"]["sum"]["cycles"],
+    return {"machine": clocked.name(found["time"]["sum"]), "picture": found["result_fnv1a64"], "busy": busy, "blend": blend, "cycles": found["time"]["sum"]["cycles"],
             "joules": found["energy"]["chip_joules"]["value"], "um2": found["energy"]["area"]["chip_um2"]["value"]}
 
 
@@ -58,7 +59,7 @@ def main():
     parser.add_argument("--config", help="a machine, by its name or its file")
     args = parser.parse_args()
     print("| idea | rasterizers, Mcycles | blending, Mcycles | frame, Mcycles | chip, mJ | chip, mm2 |\n|---|--:|--:|--:|--:|--:|")
-    pictures, base = {}, None
+    pictures, base, names = {}, None, []
     with tempfile.TemporaryDirectory() as folder:
         for name, settings, options in IDEAS:
             one = draw(args, settings, options, folder)
@@ -69,6 +70,8 @@ def main():
             cells = [(f"{one[key] / scale:.{digits}f}" if one is base else change(one[key], base[key]))
                      for key, scale, digits in (("busy", 1e6, 3), ("blend", 1e6, 3), ("cycles", 1e6, 3), ("joules", 1e-3, 2), ("um2", 1e6, 2))]
             print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
+            names.append(one["machine"])
+    clocked.say(names)
 
 
 if __name__ == "__main__":

@@ -22,6 +22,7 @@ import subprocess
 import sys
 import tempfile
 
+import clocked
 import command_line
 
 REASONS = {
@@ -70,7 +71,7 @@ def main():
         parser.error("no program, expected one with its arguments")
     if not shutil.which(options.program[0]):
         parser.error(f"{options.program[0]}: no such program, expected one that uses OpenCL")
-    versions = set()
+    names = []
     headings = ["machine", "kernel", "launches", "instr.", "cycles", *REASONS]
     for machine in options.machines.split(","):
         try:
@@ -78,16 +79,16 @@ def main():
         except RuntimeError as problem:
             print(f"kernel_cycles.py: error: {problem}", file=sys.stderr)
             return 1
-        if not versions:
+        if not names:
             print("|" + "|".join(f" {heading} " for heading in headings) + "|")
             print("|---|---|" + "--:|" * (len(headings) - 2))
-        versions |= {run["time"]["clock_version"] for run in runs}
+        names += [clocked.name(run["time"]) for run in runs]
         for kernel, row in by_kernel(runs).items():
             total = sum(row["reasons"].values())
             cells = [machine, kernel, row["launches"], f"{row['reasons']['issue']:,}", f"{row['cycles']:,}",
                      *(f"{100 * cycles / total:.1f}" for cycles in row["reasons"].values())]
             print("|" + "|".join(f" {cell} " for cell in cells) + "|", flush=True)
-    print(f"\nversion {', '.join(map(str, sorted(versions)))} of the clock")
+    clocked.say(names)
     return 0
 
 

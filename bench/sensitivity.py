@@ -15,6 +15,7 @@ import os
 import sys
 import tempfile
 
+import clocked
 import command_line
 import kept
 import timed_frame
@@ -52,7 +53,7 @@ def frame(args, config, folder):
     time = timed_frame.render(args, config, folder)
     if "error" in time:
         return time
-    return {"cycles": time["sum"]["cycles"],
+    return {"machine": clocked.name(time["sum"]), "cycles": time["sum"]["cycles"],
             "stages": {s["name"]: s["time"]["cycles"] for s in time["stages"] if "time" in s}}
 
 
@@ -65,7 +66,7 @@ def table(results, share):
         if changes:
             rows.append((max(abs(c) for c in changes.values()), key, by_label, changes))
     rows.sort(key=lambda row: (-row[0], row[1]))
-    print(f"frame: {base} cycles\n")
+    print(f"frame: {base} cycles of {results['base']['machine']}\n")
     print("| parameter | default | 20 % less | 20 % more |\n|---|--:|--:|--:|")
     small = 0
     for effect, key, by_label, changes in rows:

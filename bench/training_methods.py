@@ -16,6 +16,7 @@ import resource
 import statistics
 import subprocess
 
+import clocked
 import command_line
 
 METHODS = {
@@ -69,11 +70,13 @@ def main():
     parser.add_argument("options", nargs="*")
     args = parser.parse_intermixed_args()
     os.makedirs(args.results, exist_ok=True)
-    base = None
+    base, names = None, []
     print("| method | PSNR, dB, by seed | mean | Gaussians | million cycles | seconds | cycles of the third iteration | more |\n"
           "|---|---|--:|--:|--:|--:|--:|--:|")
     for name in args.only or METHODS:
-        third = cycles_of(run(args, name, 0, ["--iterations", "3", "--time", "--time-every", "1"]))[-1]
+        short = run(args, name, 0, ["--iterations", "3", "--time", "--time-every", "1"])
+        names += [clocked.name(timed["time"]["sum"]) for timed in short["timed"]]
+        third = cycles_of(short)[-1]
         base = base or third
         cells = [""] * 5
         if args.iterations:
@@ -84,6 +87,7 @@ def main():
             cells = [", ".join(f"{score:.2f}" for score in scores), f"{statistics.mean(scores):.2f}", f"{found[0]['gaussians']:,}",
                      f"{statistics.mean(timed) / 1e6:.2f}", f"{statistics.median(each['processor_s'] for each in found):.1f}"]
         print(f"| {name} | {' | '.join(cells)} | {third:,} | {100 * third / base - 100:+.1f} % |", flush=True)
+    clocked.say(names)
     return 0
 
 

@@ -23,6 +23,7 @@ import subprocess
 import sys
 import tempfile
 
+import clocked
 import command_line
 import kept
 import timed_frame
@@ -102,6 +103,7 @@ def run(args, default, sample, folder):
         if "error" in time:
             sys.exit("uncertainty.py: error: " + time["error"])
         times[path] = time["frame_ms"]
+        times["machine"] = clocked.name(time["sum"])
     return {"values": {".".join(key): value for key, value in sample.items()}, **times}
 
 
@@ -145,6 +147,7 @@ def table(base, results):
     print("| | as it is | 5 % | median | 95 % |\n|---|--:|--:|--:|--:|")
     for name, as_it_is, values in rows:
         print(f"| {name} | " + " | ".join(f"{v:.3g}" for v in (as_it_is, *interval(values))) + " |")
+    clocked.say([base["machine"]])
     print("\nThe frame's time follows " + (", ".join(
         f"`{name}` ({c:+.2f})" for c, name in followed(results)) or "no single parameter") + ".")
 

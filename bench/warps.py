@@ -11,6 +11,7 @@ import os
 import sys
 import tempfile
 
+import clocked
 import command_line
 import timed_frame
 
@@ -26,7 +27,7 @@ def draw(args, machine, warps, folder):
     if error:
         sys.exit(f"warps.py: error: {machine}, {warps} warps: {error}")
     stages = {stage["name"]: stage["time"]["cycles"] for stage in found["time"]["stages"] if "time" in stage}
-    return {"picture": found["result_fnv1a64"], "fps": found["time"]["fps"],
+    return {"machine": clocked.name(found["time"]["sum"]), "picture": found["result_fnv1a64"], "fps": found["time"]["fps"],
             **{name: stages[name] for name in STAGES},
             "cycles": found["time"]["sum"]["cycles"], "joules": found["energy"]["chip_joules"]["value"],
             "um2": found["energy"]["area"]["chip_um2"]["value"]}
@@ -40,7 +41,7 @@ def main():
     scene = os.path.basename(args.scene).split(".")[0]
     print("| scene, view | machine | warps | frames/s | frame | `project` | sort by depth | chip, mJ | chip, mm2 |\n"
           "|---|---|--:|--:|--:|--:|--:|--:|--:|")
-    picture = None
+    picture, names = None, []
     with tempfile.TemporaryDirectory() as folder:
         for machine in MACHINES:
             base = None
@@ -50,10 +51,12 @@ def main():
                 if picture != one["picture"]:
                     sys.exit(f"warps.py: error: {machine}, {warps} warps: another picture, expected the same bits")
                 base = base or one
+                names.append(one["machine"])
                 cells = [f"{one[key] / scale:.{digits}f}" if one is base else f"{100 * (one[key] / base[key] - 1):+.1f} %"
                          for key, scale, digits in (("cycles", 1e6, 3), *((name, 1e6, 3) for name in STAGES),
                                                     ("joules", 1e-3, 2), ("um2", 1e6, 2))]
                 print(f"| {scene} {args.view} | `{machine}` | {warps} | {one['fps']:.1f} | " + " | ".join(cells) + " |", flush=True)
+    clocked.say(names)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ import sys
 import tempfile
 
 sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import clocked
 import command_line
 import peers
 
@@ -82,36 +83,40 @@ def assemble(folder, kernel, iterations):
     return stem + ".elf"
 
 
-def cycles_of(program, preset, warps, changes=(), options=()):
-    """On one core of a preset with a data cache, as the RTLs have, and what else is changed."""
+def time_of(program, preset, warps, changes=(), options=()):
+    """The time report of one core of a preset with a data cache, as the RTLs have, and what else is changed."""
     settings = ("machine=prototype-on-chip", "sockets_per_cluster=1", "cores_per_socket=1", f"warps_per_core={warps}",
                 f"timing.core.preset={preset}", "timing.core.dcache_kib=16", *changes)
     report = program + ".json"
     subprocess.run(["vorion-sim", program, "--threads", "1", "--set", ",".join(settings), "--time", "--stats", report, *options],
                    check=True, stdout=subprocess.DEVNULL)
     with open(report) as file:
-        return json.load(file)["runs"][0]["time"]["cycles"]
+        return json.load(file)["runs"][0]["time"]
 
 
 def per_iteration(folder, kernel, preset, warps):
+    """(cycles, the machine's name)."""
     few, many = kernel["iterations"]
-    took = [cycles_of(assemble(folder, kernel, n), preset, warps) for n in (few, many)]
-    return (took[1] - took[0]) / (many - few)
+    took = [time_of(assemble(folder, kernel, n), preset, warps) for n in (few, many)]
+    return (took[1]["cycles"] - took[0]["cycles"]) / (many - few), clocked.name(took[1])
 
 
 def table(folder, kernels, name, reference, preset, warps):
     """Prints one machine's rows; returns what is too far off."""
     print(f"\n`{preset}` beside `{name}`, {warps} warp{'s' if warps > 1 else ''}, cycles of an iteration:\n")
     print("| loop | ours | reference | error |\n|---|--:|--:|--:|")
-    wrong = []
+    wrong, names = [], []
     for loop, (theirs, comparable) in reference.items():
         if theirs is None or loop not in kernels:
             continue
-        ours = per_iteration(folder, kernels[loop], preset, warps)
+        ours, machine = per_iteration(folder, kernels[loop], preset, warps)
+        names.append(machine)
         error = ours / theirs - 1
         print(f"| `{loop}` | {ours:.1f} | {theirs:.1f} | {f'{100 * error:+.1f} %' if comparable else 'not comparable'} |")
         if comparable and abs(error) > LIMIT:
             wrong.append(f"{name}: {loop}: {ours:.1f} cycles, expected {theirs:.1f} within {100 * LIMIT:.0f} %")
+    if names:
+        clocked.say(names)
     return wrong
 
 

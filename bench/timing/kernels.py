@@ -26,6 +26,7 @@ import tempfile
 
 sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
+import clocked
 import command_line
 import cores
 import peers
@@ -77,18 +78,18 @@ def image_of(program):
 
 
 def ours(program, machine):
-    """(cycles, hash of the result) of a program on our machine."""
+    """(time report, hash of the result) of a program on our machine."""
     changes = ("timing.socket.icache_kib=16", "timing.core.interleaved_stacks=0",
                f"timing.l2.fixed_cycles={machine['fixed_cycles']}")
     result = program + ".result"
-    cycles = cores.cycles_of(program, machine["preset"], machine["warps"], changes, ("--signature", result))
+    time = cores.time_of(program, machine["preset"], machine["warps"], changes, ("--signature", result))
     with open(result) as file:
-        return cycles, hash_of(b"".join(struct.pack("<I", int(line, 16)) for line in file))
+        return time, hash_of(b"".join(struct.pack("<I", int(line, 16)) for line in file))
 
 
 def table(machine, programs):
     """Prints a machine's rows; returns what is wrong."""
-    name, wrong, ratios = machine["name"], [], []
+    name, wrong, ratios, names = machine["name"], [], [], []
     if not programs.keys() & machine["kernels"].keys():
         return []
     print(f"\n`{machine['preset']}` beside `{name}`, {machine['warps']} warp{'s' if machine['warps'] > 1 else ''}, "
@@ -101,7 +102,9 @@ def table(machine, programs):
         if image != reference["image"]:
             wrong.append(f"{name}: {kernel}: image {image}, expected {reference['image']}, which the RTL ran")
             continue
-        cycles, result = ours(programs[kernel], machine)
+        time, result = ours(programs[kernel], machine)
+        cycles = time["cycles"]
+        names.append(clocked.name(time))
         if result != reference["result"]:
             wrong.append(f"{name}: {kernel}: result {result}, expected {reference['result']}")
         ratio = cycles / reference["cycles"]
@@ -115,6 +118,8 @@ def table(machine, programs):
         print(f"| geometric mean | | | {100 * (mean - 1):+.1f} % |")
         if abs(mean - 1) > OF_ALL:
             wrong.append(f"{name}: geometric mean {mean:.3f}, expected 1 within {100 * OF_ALL:.0f} %")
+    if names:
+        clocked.say(names)
     return wrong
 
 

@@ -21,6 +21,7 @@ public:
 
   Expected<Success> attach(Machine &M) override {
     OnMachine = nameOf(M.config()).Name;
+    ClockMhz = M.config().Timing.ClockMhz;
     return Success{};
   }
   std::vector<TimeObserver *> timeObservers() override { return {this}; }
@@ -51,6 +52,8 @@ private:
   /// What the work of either unit has.
   Json begin(const char *Unit, const auto &W, CycleSpan When) const {
     return {{"machine", OnMachine},
+            {"clock_mhz", ClockMhz},
+            {"clock_version", ClockVersion},
             {"unit", Unit},
             {"run", Run},
             {"core", W.Core},
@@ -70,7 +73,8 @@ private:
 
   GrowingFile File;
   std::string OnMachine; ///< its name
-  uint64_t Run = 1;      ///< the one that goes on
+  uint32_t ClockMhz = 0;
+  uint64_t Run = 1; ///< the one that goes on
 };
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,

@@ -1,5 +1,6 @@
 #include "accuracy/Page.h"
 
+#include "device/ClockedMachine.h"
 #include "io/ReportHead.h"
 #include "page/Page.h"
 #include "sweep/Origin.h"
@@ -63,13 +64,15 @@ static Json summaryOf(const std::vector<Candidate> &All) {
 Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
                              const PageHead &Head,
                              const std::vector<Setting> &Settings) {
-  Json Views = Json::array(), Points = Json::array();
+  Json Views = Json::array(), Points = Json::array(), On;
   for (const Camera &View : P.Views)
     Views.push_back(View.Name);
   for (const Point &Of : pointsOf(P, Settings)) {
     const auto Measured = readPoint(P, Kept, Of);
     if (!Measured)
       return Measured.error();
+    // No setting changes the machine.
+    On = (*Measured)[ClockedMachineKey];
     Json Pictures;
     for (const char *Key : {"setting", "view", "picture", "difference"})
       Pictures[Key] = (*Measured)[Key];
@@ -104,6 +107,7 @@ Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
     ChosenOn.push_back(View->Name);
   const Json Data{
       {"made", Json::array({Head.Made, madeBy(), hashLine(P.From)})},
+      {ClockedMachineKey, std::move(On)},
       {"floor_db", Head.FloorDb},
       {"views", std::move(Views)},
       {"chosen_on", std::move(ChosenOn)},
@@ -121,11 +125,13 @@ std::string trainPageOf(const Json &Results,
       Curves.push_back({{"setting", Point["setting"]},
                         {"seed", Point["seed"]},
                         {"curve", Point["curve"]}});
-  return filledPage(trainPageTemplate(), {{"made", Made},
-                                          {"iterations", Results["iterations"]},
-                                          {"reached_db", Results["reached_db"]},
-                                          {"settings", Results["settings"]},
-                                          {"curves", std::move(Curves)}});
+  return filledPage(trainPageTemplate(),
+                    {{"made", Made},
+                     {ClockedMachineKey, Results[ClockedMachineKey]},
+                     {"iterations", Results["iterations"]},
+                     {"reached_db", Results["reached_db"]},
+                     {"settings", Results["settings"]},
+                     {"curves", std::move(Curves)}});
 }
 
 } // namespace vorion::splat

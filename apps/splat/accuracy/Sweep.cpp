@@ -2,6 +2,7 @@
 
 #include "accuracy/Reference.h"
 #include "accuracy/Thumbnail.h"
+#include "device/ClockedMachine.h"
 #include "io/Inside.h"
 #include "io/Metrics.h"
 #include "sweep/Points.h"
@@ -158,13 +159,19 @@ Expected<Json> PointMeasurement::measure() {
   for (const char *Key : {"stages", "time", "energy"})
     Made.erase(Key);
   Made["total"].erase("seconds");
-  return Json{
-      {"setting", Target.Chosen.name()}, {"view", Target.View->Name},
-      {"errors", std::move(*Errors)},    {"cores_errors", std::move(Kernels)},
-      {"times", std::move(Times)},       {"energy", std::move(Spent)},
-      {"lane_cycles", LaneCycles},       {"lane_area_um2", Area},
-      {"lane_area_relative", Relative},  {"made_by", std::move(Made)},
-      {"picture", std::move(*Small)},    {"difference", std::move(*Apart)}};
+  return Json{{"setting", Target.Chosen.name()},
+              {"view", Target.View->Name},
+              {ClockedMachineKey, clockedMachine(Time)},
+              {"errors", std::move(*Errors)},
+              {"cores_errors", std::move(Kernels)},
+              {"times", std::move(Times)},
+              {"energy", std::move(Spent)},
+              {"lane_cycles", LaneCycles},
+              {"lane_area_um2", Area},
+              {"lane_area_relative", Relative},
+              {"made_by", std::move(Made)},
+              {"picture", std::move(*Small)},
+              {"difference", std::move(*Apart)}};
 }
 
 /// Whether \p J has what candidates() and the page take.
@@ -181,6 +188,7 @@ bool isMeasurement(const Json &J) {
                                              {"chip_joules", Number.orNull()}});
   const JsonShape Shape = JsonShape::object({{"setting", Text},
                                              {"view", Text},
+                                             {ClockedMachineKey, Text},
                                              {"errors", Errors},
                                              {"cores_errors", Errors.orNull()},
                                              {"times", Times},
@@ -307,9 +315,11 @@ Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
     Wanted.push_back({Of.name(), originOf(P, Of),
                       [&P, &Of] { return PointMeasurement(P, Of).measure(); },
                       [](const Json &M) {
-                        return fmt::format("{:.1f} dB, {:.0f} cycles",
-                                           valueOf(M["errors"]["psnr_db"]),
-                                           M["times"]["cycles"].get<double>());
+                        return fmt::format(
+                            "{:.1f} dB, {:.0f} cycles; {}",
+                            valueOf(M["errors"]["psnr_db"]),
+                            M["times"]["cycles"].get<double>(),
+                            M[ClockedMachineKey].get<std::string>());
                       }});
   return measureAll(Kept, Wanted, P.Jobs, Log);
 }

@@ -2,6 +2,7 @@
 
 #include "accuracy/GradientReference.h"
 #include "capture/Capture.h"
+#include "device/ClockedMachine.h"
 #include "io/Hash.h"
 #include "io/Inside.h"
 #include "io/Mean.h"
@@ -10,6 +11,7 @@
 #include "sweep/Process.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -137,8 +139,6 @@ Json curveOf(const Json &Report, unsigned TimeEvery) {
     ByBlock.resize(Block + 1, T["time"]["frame_ms"].get<double>());
   }
   Json Curve = Json::array();
-  if (ByBlock.empty())
-    return Curve;
   double Seconds = 0;
   unsigned Done = 0;
   for (const Json &S : Report["scores"]) {
@@ -172,6 +172,11 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
     return Report;
   for (const char *Ending : {".ply", ".json", ".log"})
     std::filesystem::remove(Base + Ending);
+  if ((*Report)["timed"].empty())
+    return Error{
+        Of.name(),
+        "no iteration was timed, expected the clock on in all of a run",
+        ExitCode::Usage};
   Json Curve = curveOf(*Report, P.TimeEvery);
   double Cycles = 0, Joules = 0;
   for (const Json &T : (*Report)["timed"]) {
@@ -179,25 +184,24 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
     if (P.Energy)
       Joules += T["energy"]["chip_joules"]["value"].get<double>();
   }
-  const Json Areas =
-      (*Report)["timed"].empty()
-          ? Json()
-          : (*Report)["timed"][0]["time"]["sum"]["lane_areas"]["reciprocal"];
+  const Json &First = (*Report)["timed"].front()["time"]["sum"];
+  const Json Areas = First["lane_areas"]["reciprocal"];
+  std::string On = clockedMachine(First);
   const std::size_t Samples = (*Report)["timed"].size();
   // Seconds of the host, of one run, are no figure.
   for (const char *Key : {"losses", "scores", "seconds", "timed"})
     Report->erase(Key);
-  return Json{{"setting", Of.Chosen.name()},
-              {"seed", Of.at()},
-              {"psnr8_db", (*Report)["psnr8_db"]},
-              {"timed", Samples},
-              {"cycles", Samples == 0 ? 0.0 : Cycles / double(Samples)},
-              {"chip_joules", P.Energy && Samples != 0
-                                  ? Json(Joules / double(Samples))
-                                  : Json()},
-              {"reciprocal_um2", Areas},
-              {"curve", std::move(Curve)},
-              {"made_by", std::move(*Report)}};
+  return Json{
+      {"setting", Of.Chosen.name()},
+      {"seed", Of.at()},
+      {ClockedMachineKey, std::move(On)},
+      {"psnr8_db", (*Report)["psnr8_db"]},
+      {"timed", Samples},
+      {"cycles", Cycles / double(Samples)},
+      {"chip_joules", P.Energy ? Json(Joules / double(Samples)) : Json()},
+      {"reciprocal_um2", Areas},
+      {"curve", std::move(Curve)},
+      {"made_by", std::move(*Report)}};
 }
 
 /// Whether \p J has what trainResults() and the page take.
@@ -219,6 +223,7 @@ bool isMeasurement(const Json &J) {
   const JsonShape Run = JsonShape::object(
       {{"setting", Text},
        {"seed", Text},
+       {ClockedMachineKey, Text},
        {"psnr8_db", Number},
        {"cycles", Number},
        {"chip_joules", Number.orNull()},
@@ -237,9 +242,10 @@ bool isMeasurement(const Json &J) {
 std::string lineOf(const Json &Measured) {
   if (Measured.contains("errors"))
     return fmt::format("{:.1e}", Measured["errors"]["largest"].get<double>());
-  return fmt::format("{:.2f} dB, {:.0f} cycles an iteration",
+  return fmt::format("{:.2f} dB, {:.0f} cycles an iteration; {}",
                      Measured["psnr8_db"].get<double>(),
-                     Measured["cycles"].get<double>());
+                     Measured["cycles"].get<double>(),
+                     Measured[ClockedMachineKey].get<std::string>());
 }
 
 } // namespace
@@ -352,7 +358,7 @@ double bestOf(const Json &Curve) {
 } // namespace
 
 Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
-  Json Points = Json::array();
+  Json Points = Json::array(), On;
   double Reached = std::numeric_limits<double>::infinity();
   const std::vector<TrainPoint> All = trainPoints(P);
   for (const TrainPoint &Of : All) {
@@ -362,8 +368,11 @@ Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
           P.Folder,
           fmt::format("point {} is missing, expected it to be measured",
                       Of.name())};
-    if (Of.Seed)
+    if (Of.Seed) {
       Reached = std::min(Reached, bestOf((*One)["curve"]));
+      // No setting changes the machine.
+      On = (*One)[ClockedMachineKey];
+    }
     Points.push_back(*One);
   }
   Json Settings = Json::array();
@@ -392,20 +401,20 @@ Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
     Row["machine_seconds"] = spreadOf(Seconds);
     Settings.push_back(std::move(Row));
   }
-  return Json{{"capture", P.Capture},
-              {"iterations", P.Iterations},
-              {"seeds", P.Seeds},
-              {"reached_db", Reached},
-              {"settings", std::move(Settings)},
+  return Json{{"capture", P.Capture},       {ClockedMachineKey, std::move(On)},
+              {"iterations", P.Iterations}, {"seeds", P.Seeds},
+              {"reached_db", Reached},      {"settings", std::move(Settings)},
               {"points", std::move(Points)}};
 }
 
 std::string trainTable(const Json &Results) {
   const bool HasEnergy = !Results["settings"][0]["chip_joules"].is_null();
   std::string Text = fmt::format(
+      "machine: {}\n\n"
       "| setting | gradient error | area of the unit, um^2 a pair | Mcycles an "
       "iteration | {}PSNR after {}, dB | machine-seconds to {:.2f} dB |\n"
       "|---|--:|--:|--:|{}--:|--:|\n",
+      printable(Results[ClockedMachineKey].get<std::string>()),
       HasEnergy ? "energy of the chip an iteration, mJ | " : "",
       Results["iterations"].get<unsigned>(),
       Results["reached_db"].get<double>(), HasEnergy ? "--:|" : "");

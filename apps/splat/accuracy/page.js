@@ -245,6 +245,7 @@ function draw() {
 }
 
 function start() {
+  byId('machine').textContent = `All times are of ${data.clocked_machine}.`;
   const choose = (id, choices, read = v => v) => fill(byId(id), choices, value => { state[id] = read(value); draw(); });
   choose('view', [[0, 'all (worst error, sum of times)'], ...data.views.map((v, n) => [n + 1, v])], Number);
   choose('metric', Object.entries(METRICS).map(([k, m]) => [k, m.label]));
@@ -273,6 +274,7 @@ function checkRecommended() {
 }
 
 function tryOut() {
+  if (!/ MHz, clock version \d+\.$/.test(byId('machine').textContent)) throw new Error('the times have no machine');
   checkRecommended();
   const { data: points } = charts.plot.data.datasets[0];
   if (points.length < 2) throw new Error('fewer than two settings');

@@ -109,11 +109,13 @@ function select(setting) {
 }
 
 function start() {
+  byId('machine').textContent = `All times are of ${data.clocked_machine}.`;
   fill(byId('axis'), Object.entries(AXES).map(([k, a]) => [k, a.label]), value => { state.axis = value; draw(); });
   draw();
 }
 
 function tryOut() {
+  if (!/ MHz, clock version \d+\.$/.test(byId('machine').textContent)) throw new Error('the times have no machine');
   const { length } = charts.plot.data.datasets[0].data;
   if (length !== data.settings.length) throw new Error('not a point a setting');
   charts.plot.options.onClick({}, [{ datasetIndex: 0, index: length - 1 }]);

@@ -7,6 +7,7 @@
 #include "commands/SceneArguments.h"
 #include "commands/SweepArguments.h"
 #include "commands/Usage.h"
+#include "device/ClockedMachine.h"
 #include "io/ReportHead.h"
 #include "sweep/Points.h"
 #include "vorion/support/CommandLine.h"
@@ -172,9 +173,13 @@ Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
   const auto Measured = candidates(P, Kept, All, V.Choose);
   if (!Measured)
     return Measured.error();
+  const auto First = readPoint(P, Kept, {Setting(), V.Choose.front()});
+  if (!First)
+    return First.error();
   std::string Text =
-      fmt::format("{}; at least {} dB on {}:\n", counted(All.size(), "setting"),
-                  FloorDb, names(V.Choose));
+      fmt::format("machine: {}\n{}; at least {} dB on {}:\n",
+                  escaped((*First)[ClockedMachineKey].get<std::string>()),
+                  counted(All.size(), "setting"), FloorDb, names(V.Choose));
   for (std::size_t A = 0; A < TimeAxes; ++A) {
     const auto Axis = static_cast<TimeAxis>(A);
     if (Axis == TimeAxis::Energy && !P.Energy)

@@ -1,6 +1,7 @@
 #include "commands/Compare.h"
 #include "commands/OutputFile.h"
 
+#include "device/ClockedMachine.h"
 #include "device/TimeFile.h"
 #include "io/ReportHead.h"
 #include "page/TimePage.h"
@@ -8,6 +9,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
+#include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 
@@ -29,11 +31,15 @@ nlohmann::ordered_json figuresOf(const std::vector<TimeChange> &Changes) {
   return All;
 }
 
-Expected<Success> writeJson(const CompareArguments &A,
+Expected<Success> writeJson(const CompareArguments &A, const TimeFile &First,
+                            const TimeFile &Second,
                             const std::vector<TimeChange> &Changes) {
   nlohmann::ordered_json Report = reportHead("splat-compare-times");
-  Report.update(
-      {{"a", A.Reference}, {"b", A.Picture}, {"figures", figuresOf(Changes)}});
+  Report.update({{"a", A.Reference},
+                 {"b", A.Picture},
+                 {fmt::format("{}_of_a", ClockedMachineKey), First.On},
+                 {fmt::format("{}_of_b", ClockedMachineKey), Second.On},
+                 {"figures", figuresOf(Changes)}});
   return writeFileAtomically(A.Json, jsonText(Report, 2) + "\n");
 }
 
@@ -74,7 +80,7 @@ Expected<Success> compareTimes(const CompareArguments &A) {
   const std::vector<TimeChange> Changes = changesOf(*First, *Second);
   printOut("{}{}", machinesText(*First, *Second), toText(Changes));
   if (!A.Json.empty())
-    if (auto Written = writeJson(A, Changes); !Written)
+    if (auto Written = writeJson(A, *First, *Second, Changes); !Written)
       return Written;
   if (!A.Html.empty())
     if (auto Written = writeHtml(A, Changes); !Written)
@@ -83,9 +89,10 @@ Expected<Success> compareTimes(const CompareArguments &A) {
       Second->Milliseconds <= First->Milliseconds * (1 + *A.AtMost / 100))
     return Success{};
   return Error{A.Picture,
-               fmt::format("{:.3f} ms, expected at most {} % more than {:.3f}",
-                           Second->Milliseconds, *A.AtMost,
-                           First->Milliseconds),
+               fmt::format("{:.3f} ms of {}, expected at most {} % more than "
+                           "{:.3f}",
+                           Second->Milliseconds, printable(Second->On),
+                           *A.AtMost, First->Milliseconds),
                ExitCode::GuestFailed};
 }
 

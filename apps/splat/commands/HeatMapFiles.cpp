@@ -19,6 +19,13 @@ std::string pictureOf(const std::string &Prefix, Heat H) {
 
 std::string reportOf(const std::string &Prefix) { return Prefix + ".json"; }
 
+/// What stands behind a value of \p H: of cycles, whose they are.
+std::string unitOf(Heat H, const DrawnTiles &Drawn) {
+  if (H == Heat::Cycles)
+    return ", of " + Drawn.On;
+  return H == Heat::Saturation ? " %" : "";
+}
+
 } // namespace
 
 std::vector<NamedFile> HeatMapFiles::outputs(const std::string &Prefix) {
@@ -46,41 +53,41 @@ Expected<HeatMapFiles> HeatMapFiles::begin(std::string Prefix,
                       std::move(Region));
 }
 
-Expected<std::vector<TileWork>> HeatMapFiles::tiles() const {
-  auto Tiles = readTileWork(File);
-  if (!Region.empty() && (!Tiles || Tiles->empty()))
+Expected<DrawnTiles> HeatMapFiles::tiles() const {
+  auto Drawn = readTileWork(File);
+  if (!Region.empty() && (!Drawn || Drawn->Tiles.empty()))
     return Error{"",
                  fmt::format("no tiles: VORION_REGION={} counts no launch that "
                              "blends, expected a region with the kernel "
                              "rasterize",
                              Region),
                  ExitCode::Usage};
-  if (!Tiles || Tiles->empty())
+  if (!Drawn || Drawn->Tiles.empty())
     return Error{"",
                  "the device reports nothing about tiles, expected a Vorion "
                  "device with --heat-map",
                  ExitCode::Usage};
-  return Tiles;
+  return Drawn;
 }
 
 Expected<Success> HeatMapFiles::write(const Camera &View,
                                       nlohmann::ordered_json Report) const {
   if (Prefix.empty())
     return Success{};
-  const auto Tiles = tiles();
-  if (!Tiles)
-    return Tiles.error();
+  const auto Drawn = tiles();
+  if (!Drawn)
+    return Drawn.error();
   for (const Heat H : Heats) {
-    if (auto Written = writePng(pictureOf(Prefix, H),
-                                drawHeat(*Tiles, H, View.Width, View.Height));
+    if (auto Written =
+            writePng(pictureOf(Prefix, H),
+                     drawHeat(Drawn->Tiles, H, View.Width, View.Height));
         !Written)
       return Written;
     printOut("heat map of {}: {}, up to {:.0f}{}\n", name(H),
-             pictureOf(Prefix, H), scaleOf(*Tiles, H),
-             H == Heat::Saturation ? " %" : "");
+             pictureOf(Prefix, H), scaleOf(Drawn->Tiles, H), unitOf(H, *Drawn));
   }
   Report["schema"]["name"] = "splat-heat-map";
-  Report["heat_map"] = heatJson(*Tiles);
+  Report["heat_map"] = heatJson(*Drawn);
   return writeFileAtomically(reportOf(Prefix), jsonText(Report, 2) + "\n");
 }
 

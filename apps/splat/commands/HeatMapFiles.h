@@ -26,7 +26,7 @@ public:
                                       DeviceOptions &Options);
 
   /// What the device drew. An error where it told of no tiles.
-  Expected<std::vector<TileWork>> tiles() const;
+  Expected<DrawnTiles> tiles() const;
   /// Writes what the device drew of \p View; \p Report says what made it.
   Expected<Success> write(const Camera &View,
                           nlohmann::ordered_json Report) const;

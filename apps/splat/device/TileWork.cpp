@@ -1,9 +1,11 @@
 #include "device/TileWork.h"
 
+#include "device/ClockedMachine.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <ranges>
@@ -39,13 +41,14 @@ void addLine(std::map<std::pair<int, int>, TileWork> &To, const Json &Line) {
 
 } // namespace
 
-Expected<std::vector<TileWork>> readTileWork(const std::string &File) {
+Expected<DrawnTiles> readTileWork(const std::string &File) {
   const auto Bytes = readFile(File);
   if (!Bytes)
     return Bytes.error();
   std::string_view Text(reinterpret_cast<const char *>(Bytes->data()),
                         Bytes->size());
   std::map<std::pair<int, int>, TileWork> ByPlace;
+  DrawnTiles Drawn;
   while (!Text.empty()) {
     const std::size_t End = std::min(Text.find('\n'), Text.size());
     const auto Line = parseJson<Json>(Text.substr(0, End), File, "a tile");
@@ -53,13 +56,16 @@ Expected<std::vector<TileWork>> readTileWork(const std::string &File) {
       return Line.error();
     try {
       addLine(ByPlace, *Line);
+      // A line names its machine and clock as a time report does.
+      Drawn.On = clockedMachine(*Line);
     } catch (const Json::exception &) {
       return Error{File, "no tile, expected lines of VORION_TILES"};
     }
     Text.remove_prefix(std::min(End + 1, Text.size()));
   }
-  const auto Tiles = std::views::values(ByPlace);
-  return std::vector<TileWork>(Tiles.begin(), Tiles.end());
+  std::ranges::copy(std::views::values(ByPlace),
+                    std::back_inserter(Drawn.Tiles));
+  return Drawn;
 }
 
 } // namespace vorion::splat

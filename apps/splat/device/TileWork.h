@@ -20,8 +20,14 @@ struct TileWork {
   uint64_t Saturated = 0; ///< of these
 };
 
-/// Adds up what the device wrote (VORION_TILES, docs/debugging.md), in rows.
+/// The tiles of a picture.
+struct DrawnTiles {
+  std::vector<TileWork> Tiles; ///< in rows
+  std::string On; ///< the machine and clock (ClockedMachine.h); or empty
+};
+
+/// Adds up what the device wrote (VORION_TILES, docs/debugging.md).
 /// Errors: a line that is none of those.
-Expected<std::vector<TileWork>> readTileWork(const std::string &File);
+Expected<DrawnTiles> readTileWork(const std::string &File);
 
 } // namespace vorion::splat

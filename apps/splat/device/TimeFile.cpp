@@ -1,6 +1,6 @@
 #include "device/TimeFile.h"
 
-#include "vorion/support/ClockText.h"
+#include "device/ClockedMachine.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
@@ -77,9 +77,7 @@ void addUnits(Figures &To, const Json &Report) {
 /// Of a report: what else than its numbers says which machine it is.
 void describe(TimeFile &To, const Json &Report) {
   To.ClockVersion = Report.value("clock_version", 1U);
-  // Older reports do not name their machine.
-  To.On = clockedMachine(Report.value("machine", std::string("unknown")),
-                         Report.at("clock_mhz"), To.ClockVersion);
+  To.On = clockedMachine(Report);
   for (const char *Key : {"clock_mhz", "host", "lane_areas"})
     if (Report.contains(Key))
       To.Machine[Key] = Report.at(Key);

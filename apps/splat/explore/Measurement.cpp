@@ -1,5 +1,6 @@
 #include "explore/Measurement.h"
 
+#include "device/ClockedMachine.h"
 #include "explore/Bottleneck.h"
 #include "io/Mean.h"
 #include "sweep/Points.h"
@@ -79,7 +80,8 @@ Json stagesOf(const std::vector<const Json *> &Times) {
 
 Json frameOf(const Json &Report) {
   const Json &Time = Report["time"], &Energy = Report["energy"];
-  return {{"picture", Report["result_fnv1a64"]},
+  return {{ClockedMachineKey, clockedMachine(Time["sum"])},
+          {"picture", Report["result_fnv1a64"]},
           {timeKey(Work::Frames), Time["frame_ms"]},
           {"cycles", Time["sum"]["cycles"]},
           {"chip_joules", Energy["chip_joules"]},
@@ -113,7 +115,8 @@ Json iterationOf(const Json &Report) {
   std::vector<const Json *> Times;
   for (const Json &One : Timed)
     Times.push_back(&One["time"]);
-  return {{timeKey(Work::Iterations),
+  return {{ClockedMachineKey, clockedMachine(Timed.front()["time"]["sum"])},
+          {timeKey(Work::Iterations),
            meanOfTimed(Timed,
                        [](const Json &One) -> const Json & {
                          return One["time"]["frame_ms"];
@@ -195,7 +198,8 @@ bool isMeasurement(const Json &J) {
                                              {"work_share", Number},
                                              {"memory_share", Number}});
   const JsonShape Shape = JsonShape::object(
-      {{"picture", Text, Draws},
+      {{ClockedMachineKey, Text},
+       {"picture", Text, Draws},
        {timeKey(Draws ? Work::Frames : Work::Iterations), Number},
        {"cycles", Number},
        {"chip_joules", Interval},
@@ -214,12 +218,13 @@ std::string described(const Json &Measured) {
     return "cannot be: " + Measured["refused"].get<std::string>();
   const bool Draws = Measured.contains("view");
   return fmt::format(
-      "{}: {:.3f} ms{}, chip {:.3g} mJ, {:.2f} mm2",
+      "{}: {:.3f} ms{}, chip {:.3g} mJ, {:.2f} mm2; {}",
       Measured["machine"].get<std::string>(),
       Measured[timeKey(Draws ? Work::Frames : Work::Iterations)].get<double>(),
       Draws ? "" : " an iteration",
       1e3 * Measured["chip_joules"]["value"].get<double>(),
-      Measured["chip_um2"]["value"].get<double>() / 1e6);
+      Measured["chip_um2"]["value"].get<double>() / 1e6,
+      Measured[ClockedMachineKey].get<std::string>());
 }
 
 } // namespace vorion::splat

@@ -1,6 +1,8 @@
 #include "explore/Page.h"
 
+#include "device/ClockedMachine.h"
 #include "page/Page.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -76,9 +78,9 @@ Json tasksOf(const Measured &M) {
     if (Task.contains("refused"))
       continue;
     Json One;
-    for (const char *Key : {"part", "view", "iterations", timeKey(Work::Frames),
-                            timeKey(Work::Iterations), "chip_joules", "joules",
-                            "picture", "stages"})
+    for (const char *Key : {"part", "view", "iterations", ClockedMachineKey,
+                            timeKey(Work::Frames), timeKey(Work::Iterations),
+                            "chip_joules", "joules", "picture", "stages"})
       if (Task.contains(Key))
         One[Key] = Task[Key];
     All.push_back(std::move(One));
@@ -345,9 +347,11 @@ std::string textOf(const Json &Results) {
   }
   const Json &Base = *Machines["base"];
   const std::vector<Work> Does = workIn(Base);
-  std::string Text =
-      fmt::format("{} machines, {} of them on whole views, {} cannot be\n",
-                  Results["machines"].size(), Whole, Refused);
+  std::string Text = fmt::format(
+      "{} machines, {} of them on whole views, {} cannot be\n"
+      "base: {}\n",
+      Results["machines"].size(), Whole, Refused,
+      printable(Base["views"][0][ClockedMachineKey].get<std::string>()));
   for (const Work W : Does)
     Text += fmt::format("{:>10}{:>10}", keysOf(W).RateTitle, "chip mJ");
   Text += fmt::format("{:>9}  {}\n", "mm2", "machine on the front");

@@ -68,6 +68,7 @@ protected:
       Is["refused"] = "no";
     else
       Is.update({{timeKey(Of.Does), Ms},
+                 {"clocked_machine", "prototype, 530 MHz, clock version 1"},
                  {"cycles", 1},
                  {"chip_joules", interval(Joules)},
                  {"joules", interval(Joules)},

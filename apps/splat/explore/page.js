@@ -93,7 +93,7 @@ function drawParts() {
 function drawDetails() {
   const m = data.machines.find(one => one.machine === state.selected);
   const box = byId('details');
-  box.replaceChildren(element('p', {}, element('b', {}, m.machine)));
+  box.replaceChildren(element('p', {}, element('b', {}, m.machine), m.views?.length ? `: ${m.views[0].clocked_machine}` : ''));
   for (const [text, words] of [['--set ', m.settings], ['', m.arguments.join(' ')]])
     if (words) box.append(element('p', { class: 'note' }, element('code', {}, text + words)));
   if (!isJudged(m, 'whole')) {
@@ -203,7 +203,7 @@ function drawTable() {
 function drawSummary() {
   const whole = data.machines.filter(m => isJudged(m, 'whole')).length, refused = data.machines.filter(m => (m.whole ?? m.small).refused).length;
   const both = data.small_beside_whole;
-  const lines = [`${data.machines.length} machines, ${whole} of them judged on whole views (${data.views.join(', ')}), ${data.front.length} on the front, ${refused} cannot be.`];
+  const lines = [`The base is ${base.views[0].clocked_machine}. ${data.machines.length} machines, ${whole} of them judged on whole views (${data.views.join(', ')}), ${data.front.length} on the front, ${refused} cannot be.`];
   if (both)
     lines.push(`Small views put ${both.machines} machines that were drawn at random in the order of whole ones with a rank correlation of ` +
       `${work.map(w => `${number(both[w.rateOrder], 3)} by ${w.rateLabel} and ${number(both[w.energyOrder], 3)} by energy${work.length > 1 ? ` of ${w.each}` : ''}`).join(', ')}.`);
@@ -257,6 +257,7 @@ function tryOut() {
   if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
   if (!charts.roof.data.datasets[1].data.length) throw new Error('no stage under the roof');
   if (charts.roof.data.datasets[1].data.some(p => p.y > 1 || p.stage.memory_share > 1)) throw new Error('a stage is above the roof');
+  if (!/^The base is .* MHz, clock version \d+\. /.test(byId('summary').textContent)) throw new Error('the base has no clock');
   if (parts.length !== Math.max(0, byId('parts').querySelectorAll('tr').length - 1)) throw new Error('not every part has a row');
   tryControls(['across', 'up', 'size']);
   if (document.body.innerText.includes('NaN')) throw new Error('something is not a number');

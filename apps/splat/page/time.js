@@ -207,7 +207,7 @@ function drawFigures() {
   runs.forEach((run, n) => {
     const { time } = run.report;
     for (const [value, label] of [[`${number(time.frame_ms, 3)} ms`, `a frame at ${time.sum.clock_mhz} MHz`], [number(time.fps, 1), 'frames a second'],
-      [number(time.sum.cycles), 'cycles of kernels'], [`${number(megabytes(time.sum), 2)} MB`, 'of DRAM traffic'], [time.sum.machine, `the machine, clock ${time.sum.clock_version}`]])
+      [number(time.sum.cycles), 'cycles of kernels'], [`${number(megabytes(time.sum), 2)} MB`, 'of DRAM traffic'], [time.sum.machine, `the machine, clock version ${time.sum.clock_version}`]])
       boxes.push(element('div', {}, element('b', {}, value), element('span', {}, two ? `${letter(n)}: ${label}` : label)));
   });
   if (two) boxes.push(element('div', {}, element('b', {}, change(runs[0].report.time.frame_ms, runs[1].report.time.frame_ms)), element('span', {}, 'frame, A to B')));

@@ -1,5 +1,7 @@
 #include "picture/HeatMap.h"
 
+#include "device/ClockedMachine.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -127,11 +129,11 @@ Image drawHeat(const std::vector<TileWork> &Tiles, Heat H, int Width,
   return I;
 }
 
-Json heatJson(const std::vector<TileWork> &Tiles) {
+Json heatJson(const DrawnTiles &Of) {
   Json Scales, All = Json::array();
   for (const Heat H : Heats)
-    Scales[std::string(name(H))] = scaleOf(Tiles, H);
-  for (const TileWork &T : Tiles)
+    Scales[std::string(name(H))] = scaleOf(Of.Tiles, H);
+  for (const TileWork &T : Of.Tiles)
     All.push_back({{"x", T.X},
                    {"y", T.Y},
                    {"width", T.Width},
@@ -141,7 +143,7 @@ Json heatJson(const std::vector<TileWork> &Tiles) {
                    {"cycles", T.Cycles},
                    {"pixel_unit_cycles", T.PixelUnitCycles},
                    {"saturation", valueOf(T, Heat::Saturation)}});
-  return {{"scales", Scales}, {"tiles", All}};
+  return {{ClockedMachineKey, Of.On}, {"scales", Scales}, {"tiles", All}};
 }
 
 } // namespace vorion::splat

@@ -33,7 +33,8 @@ Image drawHeat(const std::vector<TileWork> &Tiles, Heat H, int Width,
                int Height);
 inline constexpr int LegendHeight = 24;
 
-/// The scales, and each tile with all its figures.
-nlohmann::ordered_json heatJson(const std::vector<TileWork> &Tiles);
+/// The machine and clock of the cycles, the scales, and each tile with all its
+/// figures.
+nlohmann::ordered_json heatJson(const DrawnTiles &Of);
 
 } // namespace vorion::splat

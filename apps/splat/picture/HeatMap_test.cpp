@@ -26,18 +26,22 @@ const std::string Lines =
  "begin": 260, "end": 300, "list": 2, "blends": 4, "saturated": 800})"
     "\n";
 
-/// A line is one line.
+/// A line is one line, and names its machine.
 std::string asLines(std::string Text) {
   for (std::size_t At = 0; (At = Text.find(",\n", At)) != std::string::npos;)
     Text.erase(At + 1, 1);
+  constexpr std::string_view Machine =
+      R"("machine": "prototype", "clock_mhz": 530, "clock_version": 3, )";
+  for (std::size_t At = 0; (At = Text.find('{', At)) != std::string::npos;)
+    Text.insert(++At, Machine);
   return Text;
 }
 
-std::vector<TileWork> tiles() {
+DrawnTiles drawn() {
   const TestFolder Folder;
   auto T = readTileWork(Folder.write("tiles", asLines(Lines)));
   EXPECT_TRUE(T) << T.error().What;
-  return T ? *T : std::vector<TileWork>();
+  return T ? *T : DrawnTiles();
 }
 
 std::array<float, 3> pixel(const Image &I, int X, int Y) {
@@ -46,7 +50,7 @@ std::array<float, 3> pixel(const Image &I, int X, int Y) {
 }
 
 TEST(HeatMap, CommandsOfATileAddUp) {
-  const auto All = tiles();
+  const auto All = drawn().Tiles;
   ASSERT_EQ(All.size(), 2U);
   EXPECT_EQ(All[0].X, 0);
   EXPECT_EQ(All[0].List, 12U);
@@ -61,7 +65,7 @@ TEST(HeatMap, CommandsOfATileAddUp) {
 }
 
 TEST(HeatMap, ATileHasTheColourOfItsValueAndTheLegendHasAll) {
-  const Image I = drawHeat(tiles(), Heat::Saturation, 100, 60);
+  const Image I = drawHeat(drawn().Tiles, Heat::Saturation, 100, 60);
   EXPECT_EQ(I.Width, 100);
   EXPECT_EQ(I.Height, 60 + LegendHeight);
   // No value, and no tile.
@@ -81,7 +85,8 @@ TEST(HeatMap, ATileHasTheColourOfItsValueAndTheLegendHasAll) {
 }
 
 TEST(HeatMap, TheReportHasEveryTile) {
-  const auto J = heatJson(tiles());
+  const auto J = heatJson(drawn());
+  EXPECT_EQ(J["clocked_machine"], "prototype, 530 MHz, clock version 3");
   EXPECT_EQ(J["scales"]["list"], 12);
   EXPECT_EQ(J["tiles"].size(), 2U);
   EXPECT_EQ(J["tiles"][0]["saturation"], 25);

@@ -1,5 +1,6 @@
 #include "render/EffectCosts.h"
 
+#include "device/ClockedMachine.h"
 #include "effects/Registry.h"
 #include "render/FrameTime.h"
 #include "render/OwnProcess.h"
@@ -13,6 +14,7 @@ namespace {
 
 struct Figures {
   uint64_t Instructions = 0, Cycles = 0;
+  std::string On; ///< as EffectCosts has it
 };
 
 Figures figuresOf(const RenderResult &R) {
@@ -21,7 +23,10 @@ Figures figuresOf(const RenderResult &R) {
     for (const KernelReport &K : S.Kernels)
       if (K.Counters)
         F.Instructions += K.Counters->WarpInstructions;
-  F.Cycles = frameCycles(R.Stages);
+  if (const auto Time = frameTime(R.Stages)) {
+    F.Cycles = Time->Cycles;
+    F.On = clockedMachine(*Time);
+  }
   return F;
 }
 
@@ -48,12 +53,14 @@ public:
       if (!R)
         return R.error();
       const Figures F = figuresOf(*R);
-      return fmt::format("{} {}", F.Instructions, F.Cycles);
+      return fmt::format("{} {} {}", F.Instructions, F.Cycles, F.On);
     });
     if (!Text)
       return Text.error();
     Figures F;
-    std::istringstream(*Text) >> F.Instructions >> F.Cycles;
+    std::istringstream Said(*Text);
+    Said >> F.Instructions >> F.Cycles >> std::ws;
+    std::getline(Said, F.On);
     return F;
   }
 
@@ -104,7 +111,7 @@ measureEffects(const DeviceOpener &Open, const std::string &KernelFolder,
   const auto Frame = M.measure(Asked);
   if (!Frame)
     return Frame.error();
-  EffectCosts Costs{Frame->Instructions, Frame->Cycles, {}};
+  EffectCosts Costs{Frame->Instructions, Frame->Cycles, Frame->On, {}};
   for (const Effect *E : effects::all()) {
     if (E->Macro.empty())
       continue;
@@ -127,12 +134,13 @@ measureEffects(const DeviceOpener &Open, const std::string &KernelFolder,
 }
 
 std::string toString(const EffectCosts &Costs) {
-  std::string Text =
-      fmt::format("measured: the frame with the effect less the frame without, "
-                  "each the first of a process; as asked {} warp "
-                  "instructions{}\n",
-                  Costs.Instructions,
-                  Costs.Cycles ? fmt::format(", {} cycles", Costs.Cycles) : "");
+  std::string Text = fmt::format(
+      "measured: the frame with the effect less the frame without, "
+      "each the first of a process; as asked {} warp "
+      "instructions{}\n",
+      Costs.Instructions,
+      Costs.Cycles ? fmt::format(", {} cycles of {}", Costs.Cycles, Costs.On)
+                   : "");
   for (const EffectCost &C : Costs.Effects) {
     Text +=
         fmt::format("  {:<17}{:<4}", C.Subject->Name, C.Done ? "on" : "off");

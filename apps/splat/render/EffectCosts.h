@@ -25,6 +25,7 @@ struct EffectCosts {
   /// Of the frame as asked for.
   uint64_t Instructions = 0;
   uint64_t Cycles = 0;
+  std::string On; ///< the machine that they are of, empty without the clock
   /// Effects whose code can be told from the rest, in the registry's order.
   std::vector<EffectCost> Effects;
 };

@@ -1,5 +1,6 @@
 #include "render/FrameTime.h"
 
+#include "device/ClockedMachine.h"
 #include "io/Mean.h"
 #include "vorion/support/Letters.h"
 
@@ -143,8 +144,7 @@ std::string Table::head() const {
   Names += fmt::format("{:>{}}", "other", Width);
   return fmt::format("\nmachine: {}\n{:<18}{:>12}{:>7}{:>9} |{:>{}} |{:>15}|\n"
                      "{:<18}{:>12}{:>7}{:>9} |{} |{:>7}{:>7} |{:>9}\n",
-                     Whole.Machine, fmt::format("at {} MHz", Whole.ClockMhz),
-                     fmt::format("clock {}", Whole.ClockVersion), "", "",
+                     clockedMachine(Whole), "", "", "", "",
                      "cycles of cores in %", Names.size(), "rasterizers ",
                      "stage", "cycles", "%", "ms", Names, "blend", "fetch",
                      "DRAM MB");
@@ -237,11 +237,6 @@ frameMilliseconds(const std::vector<StageReport> &Stages) {
   if (!Sum)
     return std::nullopt;
   return frameMilliseconds(Stages, *Sum);
-}
-
-uint64_t frameCycles(const std::vector<StageReport> &Stages) {
-  const auto Sum = frameTime(Stages);
-  return Sum ? Sum->Cycles : 0;
 }
 
 Json frameJson(const std::vector<StageReport> &Stages) {

@@ -27,8 +27,6 @@ frameMilliseconds(const std::vector<StageReport> &Stages);
 std::optional<TimeReport> stageTime(const StageReport &S);
 std::optional<TimeReport> frameTime(const std::vector<StageReport> &Stages);
 /// @}
-/// The frame's cycles on the machine; 0 without the clock.
-uint64_t frameCycles(const std::vector<StageReport> &Stages);
 
 /// JSON of the frame: cycles a stage and a unit, frames a second. Null without
 /// the clock.

@@ -2,10 +2,10 @@
 
 #include "train/Philox.h"
 
+#include "device/ClockedMachine.h"
 #include "io/Mean.h"
 #include "render/FrameTime.h"
 #include "render/Report.h"
-#include "vorion/support/ClockText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +60,7 @@ std::string ClockSamples::text() const {
 }
 
 std::string ClockSamples::machine() const {
-  const auto T = frameTime(All.back().Stages);
-  return clockedMachine(T->Machine, T->ClockMhz, T->ClockVersion);
+  return clockedMachine(*frameTime(All.back().Stages));
 }
 
 std::string ClockSamples::lastByStage() const {

@@ -1,5 +1,6 @@
 #include "view/Session.h"
 
+#include "device/ClockedMachine.h"
 #include "effects/Registry.h"
 #include "io/CameraLens.h"
 #include "io/Metrics.h"
@@ -82,7 +83,8 @@ Json timeOf(const MachineTime &T) {
   Json Stages = Json::object();
   for (const auto &[Name, Cycles] : T.Stages)
     Stages[Name] = Cycles;
-  return {{"cycles", T.Cycles},
+  return {{ClockedMachineKey, T.On},
+          {"cycles", T.Cycles},
           {"machine_ms", T.Milliseconds},
           {"stage_cycles", std::move(Stages)}};
 }

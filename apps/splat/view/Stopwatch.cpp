@@ -1,5 +1,6 @@
 #include "view/Stopwatch.h"
 
+#include "device/ClockedMachine.h"
 #include "sweep/Process.h"
 #include "vorion/support/Json.h"
 
@@ -10,7 +11,7 @@
 
 namespace vorion::splat {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -26,13 +27,14 @@ Expected<MachineTime> readTime(const std::string &Report,
   const Json &Time = Read->at("time");
   T.Cycles = Time.at("sum").at("cycles");
   T.Milliseconds = Time.at("frame_ms");
+  T.On = clockedMachine(Time.at("sum"));
   for (const Json &Stage : Time.at("stages"))
     if (Stage.contains("time"))
       T.Stages.emplace_back(Stage.at("name"), Stage["time"].at("cycles"));
   auto Work = readTileWork(Tiles);
   if (!Work)
     return Work.error();
-  T.Tiles = std::move(*Work);
+  T.Tiles = std::move(Work->Tiles);
   return T;
 }
 

@@ -25,6 +25,7 @@ namespace vorion::splat {
 struct MachineTime {
   uint64_t Cycles = 0;
   double Milliseconds = 0;
+  std::string On; ///< the machine and its clock (ClockedMachine.h)
   /// By the names of the stages that have any.
   std::vector<std::pair<std::string, uint64_t>> Stages;
   std::vector<TileWork> Tiles;

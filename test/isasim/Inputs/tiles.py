@@ -9,7 +9,7 @@ for key in ("total", "raster"):
 time = on["runs"][0]["time"]
 assert "time" not in off["runs"][0]
 assert sorted(t["core"] for t in tiles) == list(range(8))
-assert {t["machine"] for t in tiles} == {"prototype"}
+assert {(t["machine"], t["clock_mhz"], t["clock_version"]) for t in tiles} == {("prototype", time["clock_mhz"], time["clock_version"])}
 for t in tiles:
     assert t["run"] == 1, t
     assert (t["unit"], t["width"], t["height"], t["list"], t["gaussians"], t["blends"]) == ("rasterizer", 8, 8, 1, 1, 64), t

@@ -20,7 +20,7 @@ for number, name in enumerate((line.strip() for line in sys.stdin), 1):
         point["errors"] = {kind: 10.0 ** -(number + 1) for kind in ("means", "quats", "scales", "opacities", "colors", "largest")}
     else:
         curve = [{"iteration": n, "machine_seconds": 0.01 * n, "psnr8_db": 10 + n / 4 + number / 100} for n in (5, 10, 15, 20)]
-        point |= {"seed": at, "psnr8_db": curve[-1]["psnr8_db"], "timed": 2, "cycles": 4e6 + 1000.0 * number, "chip_joules": 0.04 + 0.001 * number,
+        point |= {"seed": at, "psnr8_db": curve[-1]["psnr8_db"], "timed": 2, "clocked_machine": "prototype, 530 MHz, clock version 1", "cycles": 4e6 + 1000.0 * number, "chip_joules": 0.04 + 0.001 * number,
                   "reciprocal_um2": [1000.0 * (n + 1) for n in range(len(UNITS))], "curve": curve,
                   "made_by": {"capture": "</script>"}}
     with open(os.path.join(folder, "points", name + ".json"), "w", encoding="utf-8") as f:

@@ -116,6 +116,7 @@ Json measured(const Point &Of) {
                     {"psnr_db", nullptr}};
   return {{"setting", Of.Chosen.name()},
           {"view", Of.View->Name},
+          {"clocked_machine", "prototype, 530 MHz, clock version 1"},
           {"errors", Errors},
           {"cores_errors", Errors},
           {"times",
@@ -161,6 +162,7 @@ Json measured(const TrainPoint &Of) {
   };
   return {{"setting", Of.Chosen.name()},
           {"seed", Of.at()},
+          {"clocked_machine", "prototype, 530 MHz, clock version 1"},
           {"psnr8_db", 12.0},
           {"cycles", 1e6},
           {"chip_joules", nullptr},

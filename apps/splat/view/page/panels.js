@@ -8,6 +8,7 @@ const short = n => n === 0 ? '0' : Math.abs(n) >= 0.001 && Math.abs(n) < 1e5 ? S
 const FACTS = [
   ['cycles of the machine', f => f.cycles === undefined ? '' : whole(f.cycles)],
   ['time on the machine', f => f.machine_ms === undefined ? '' : `${f.machine_ms.toFixed(2)} ms`],
+  ['machine', f => f.clocked_machine ?? ''],
   ['PSNR against fp64', f => !f.error ? '' : f.error.psnr_db === null ? 'equal' : `${f.error.psnr_db.toFixed(1)} dB`],
   ['largest error', f => !f.error ? '' : short(f.error.max_abs)],
   ['pixels off by 1/255', f => !f.error ? '' : `${(100 * f.error.off_share).toFixed(2)} %`],
