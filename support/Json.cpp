@@ -1,6 +1,7 @@
 #include "vorion/support/Json.h"
 
 #include "vorion/support/File.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -153,6 +155,9 @@ Expected<Kind> parseJson(std::string_view Text, const std::string &Where,
                                printable(Again->Name))};
     return J;
   } catch (const nlohmann::json::parse_error &E) {
+    const auto File = std::as_bytes(std::span(Text));
+    if (!mayBeJson(fileKindOf(File)))
+      return otherKind(Where, File, Wanted, "");
     return Error{
         placeOf(Text, E.byte, Where),
         fmt::format("not JSON: {}, expected {}", reasonOf(E.what()), Wanted)};

@@ -36,8 +36,8 @@ TEST(Json, ReadsWhatIsJson) {
 }
 
 TEST(Json, WhatIsNoneIsNamedWithItsPlaceAndWhy) {
-  EXPECT_EQ(errorOf(""),
-            "f:1:1: not JSON: unexpected end of input, expected a thing");
+  EXPECT_EQ(errorOf(" "),
+            "f:1:2: not JSON: unexpected end of input, expected a thing");
   EXPECT_EQ(errorOf("[1,\n 2,\n x]"),
             "f:3:2: not JSON: invalid literal, expected a thing");
   EXPECT_EQ(errorOf("[1]]"),
@@ -49,6 +49,16 @@ TEST(Json, WhatIsNoneIsNamedWithItsPlaceAndWhy) {
                              "character after backslash, expected a thing");
   EXPECT_EQ(errorOf("[1e999]"), "f: a number beyond what a double holds, "
                                 "expected one below 1.8e308");
+}
+
+TEST(Json, AFileOfAnotherKindIsNamed) {
+  EXPECT_EQ(errorOf(""), "f: an empty file, expected a thing");
+  EXPECT_EQ(errorOf("\x89PNG\r\n\x1a\n"),
+            "f: a picture (PNG), expected a thing; `splat compare` and `splat "
+            "train` take pictures");
+  EXPECT_EQ(errorOf("<html>"),
+            "f: a web page or other XML, expected a thing; "
+            "fetch the file itself, perhaps by another link");
 }
 
 TEST(Json, AKeyStandsOnceInItsObject) {
@@ -82,7 +92,8 @@ TEST(Json, DepthIsBounded) {
   EXPECT_EQ(errorOf("1" + nested(1000)),
             "f:1:2: not JSON: unexpected '[', expected a thing");
   EXPECT_EQ(errorOf("ply\n" + nested(1000)),
-            "f:1:1: not JSON: invalid literal, expected a thing")
+            "f: a PLY file, expected a thing; `splat render` and `splat "
+            "convert` take scenes")
       << "the first thing that is wrong";
 }
 

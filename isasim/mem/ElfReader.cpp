@@ -1,6 +1,7 @@
 #include "mem/ElfReader.h"
 
 #include "core/Isa.h"
+#include "vorion/support/FileKind.h"
 
 #include <algorithm>
 #include <bit>
@@ -83,13 +84,15 @@ bool ImageParser::isCode(uint32_t Address) const {
 
 std::string ImageParser::readHeader() {
   const auto H = get<Elf32_Ehdr>(0);
-  if (!H || std::memcmp(H->e_ident, ELFMAG, SELFMAG) != 0)
-    return "not an ELF file, expected a RISC-V executable";
+  if (!H && fileKindOf(File) == FileKind::Elf)
+    return "truncated: the header lies beyond the end of the file";
+  if (!H || std::memcmp(H->e_ident, ELFMAG, SELFMAG) != 0 ||
+      H->e_ident[EI_CLASS] != ELFCLASS32 ||
+      H->e_ident[EI_DATA] != ELFDATA2LSB || H->e_machine != EM_RISCV)
+    return otherKind("", File, "an ELF executable for RISC-V (32-bit)",
+                     "not an ELF file")
+        .What;
   Header = *H;
-  if (Header.e_ident[EI_CLASS] != ELFCLASS32)
-    return "64-bit ELF file, expected 32-bit RISC-V";
-  if (Header.e_ident[EI_DATA] != ELFDATA2LSB)
-    return "big-endian ELF file, expected little-endian RISC-V";
   if (Header.e_ident[EI_VERSION] != EV_CURRENT ||
       Header.e_version != EV_CURRENT)
     return fmt::format("ELF version {}, expected {}",
@@ -97,9 +100,6 @@ std::string ImageParser::readHeader() {
                            ? Header.e_ident[EI_VERSION]
                            : Header.e_version,
                        EV_CURRENT);
-  if (Header.e_machine != EM_RISCV)
-    return fmt::format("machine number {}, expected {} (RISC-V)",
-                       Header.e_machine, EM_RISCV);
   if (Header.e_type != ET_EXEC)
     return fmt::format("ELF type {}, expected {} (executable); link the "
                        "object first",

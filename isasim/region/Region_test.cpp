@@ -227,8 +227,8 @@ TEST(Region, AnImageThatIsNoneIsToldOfTheFile) {
   const auto R = parseRegion(sealedRegion(std::move(Bad)), "r");
   ASSERT_FALSE(R);
   EXPECT_EQ(R.error().Where, "r");
-  EXPECT_EQ(R.error().What, "image 'sums': not an ELF file, expected a RISC-V "
-                            "executable");
+  EXPECT_EQ(R.error().What, "image 'sums': not an ELF file, expected an ELF "
+                            "executable for RISC-V (32-bit)");
 }
 
 TEST(Region, AnotherMachineIsRefused) {

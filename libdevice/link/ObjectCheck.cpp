@@ -1,5 +1,7 @@
 #include "ObjectCheck.h"
 
+#include "vorion/support/FileKind.h"
+
 #include <cctype>
 #include <cstdint>
 #include <cstdlib>
@@ -199,13 +201,15 @@ Expected<Success> checkArchive(Bytes File, const std::string &Archive) {
 Expected<std::string> link::readArchAttribute(Bytes File,
                                               const std::string &Name) {
   const auto Header = readAt<Elf32_Ehdr>(File, 0);
-  if (!Header || std::memcmp(Header->e_ident, ELFMAG, SELFMAG) != 0)
-    return Error{Name, "not an ELF file, expected an object or archive "
-                       "compiled by vorion-clang"};
-  if (Header->e_ident[EI_CLASS] != ELFCLASS32 ||
+  if (!Header && fileKindOf(File) == FileKind::Elf)
+    return Error{Name, "truncated header, expected a whole object"};
+  if (!Header || std::memcmp(Header->e_ident, ELFMAG, SELFMAG) != 0 ||
+      Header->e_ident[EI_CLASS] != ELFCLASS32 ||
       Header->e_ident[EI_DATA] != ELFDATA2LSB || Header->e_machine != EM_RISCV)
-    return Error{Name, "an ELF file for another machine, expected 32-bit "
-                       "little-endian RISC-V"};
+    return otherKind(Name, File,
+                     "an object for RISC-V (32-bit), or an archive of such, "
+                     "compiled by vorion-clang",
+                     "not an ELF file");
   for (unsigned I = 0; I < Header->e_shnum; ++I) {
     const auto Section = readAt<Elf32_Shdr>(
         File, Header->e_shoff + uint64_t{I} * sizeof(Elf32_Shdr));
@@ -229,9 +233,6 @@ Expected<Success> link::checkInput(Bytes File, const std::string &Name) {
     return checkArchive(File, Name);
   if (startsWith(File, "!<thin>\n"))
     return Error{Name, "a thin archive, expected a whole one"};
-  if (startsWith(File, "BC\xC0\xDE"))
-    return Error{Name, "LLVM bitcode, expected an object compiled by "
-                       "vorion-clang"};
   const auto Arch = readArchAttribute(File, Name);
   if (!Arch)
     return Arch.error();

@@ -2,6 +2,7 @@
 
 #include "vorion/support/ClockText.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/TemporaryFolder.h"
 
 #include "llvm/ADT/StringExtras.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <span>
 
 namespace json = llvm::json;
 using llvm::StringRef;
@@ -23,7 +25,11 @@ namespace {
 
 constexpr const char *Tool = "vorion-objdump";
 constexpr const char *Wanted =
-    ", expected a profile that vorion-sim --profile=FILE.json has written";
+    "a profile that vorion-sim --profile=FILE.json has written";
+
+Error wrong(const std::string &Where, const std::string &What) {
+  return {Where, What + ", expected " + Wanted};
+}
 
 /// What an instruction cost.
 struct Cost {
@@ -70,14 +76,20 @@ Cost parseCost(const json::Object &From) {
 Expected<Profile> readProfile(const std::string &Path) {
   const auto Buffer = llvm::MemoryBuffer::getFile(Path);
   if (!Buffer)
-    return Error{Path, Buffer.getError().message() + Wanted};
+    return wrong(Path, Buffer.getError().message());
   llvm::Expected<json::Value> Text = json::parse((*Buffer)->getBuffer());
-  if (!Text)
-    return Error{Path, llvm::toString(Text.takeError()) + Wanted};
+  if (!Text) {
+    const StringRef Bytes = (*Buffer)->getBuffer();
+    const auto File = std::as_bytes(std::span(Bytes.data(), Bytes.size()));
+    std::string Why = llvm::toString(Text.takeError());
+    if (!mayBeJson(fileKindOf(File)))
+      return otherKind(Path, File, Wanted, "");
+    return wrong(Path, Why);
+  }
   const json::Object *Top = Text->getAsObject();
   const json::Array *Programs = Top ? Top->getArray("programs") : nullptr;
   if (!Programs || Top->getString("format") != "vorion-profile 1")
-    return Error{Path, std::string("is no such report") + Wanted};
+    return wrong(Path, "is no such report");
   Profile All;
   const auto Cycles = Top->getInteger("cycles");
   All.HasCycles = Cycles.has_value();
@@ -97,16 +109,13 @@ Expected<Profile> readProfile(const std::string &Path) {
     const json::Array *Instructions =
         Object ? Object->getArray("instructions") : nullptr;
     if (!File || !Instructions)
-      return Error{Path, std::string("has a program without a file or "
-                                     "instructions") +
-                             Wanted};
+      return wrong(Path, "has a program without a file or instructions");
     Program P{File->str(), {}};
     for (const json::Value &Entry : *Instructions) {
       const json::Object *Of = Entry.getAsObject();
       const auto Pc = Of ? Of->getInteger("pc") : std::nullopt;
       if (!Pc)
-        return Error{Path,
-                     std::string("has an instruction without pc") + Wanted};
+        return wrong(Path, "has an instruction without pc");
       P.ByAddress[static_cast<uint64_t>(*Pc)] = parseCost(*Of);
     }
     All.Programs.push_back(std::move(P));

@@ -5,6 +5,7 @@
 #include "capture/Photo.h"
 #include "capture/TransformsCapture.h"
 #include "vorion/support/File.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Suggest.h"
@@ -174,14 +175,16 @@ bool isCapture(const std::string &Path) {
 }
 
 static Error noCapture(const std::string &Path) {
+  constexpr const char *Wanted =
+      "a folder with COLMAP's sparse/0/cameras.bin or .txt, "
+      "transforms_train.json or transforms.json";
   std::error_code Ignored;
-  const char *Why = !fileExists(Path)                 ? ": no such folder"
-                    : fs::is_directory(Path, Ignored) ? ""
-                                                      : ": not a folder";
-  return {Path, fmt::format("no capture{}, expected a folder with COLMAP's "
-                            "sparse/0/cameras.bin or .txt, "
-                            "transforms_train.json or transforms.json",
-                            Why)};
+  if (!fileExists(Path))
+    return {Path,
+            fmt::format("no capture: no such folder, expected {}", Wanted)};
+  if (fs::is_directory(Path, Ignored))
+    return {Path, fmt::format("no capture, expected {}", Wanted)};
+  return otherKindAt(Path, Wanted, "no capture: not a folder");
 }
 
 Expected<CaptureCameras> readCaptureCameras(const std::string &Path,

@@ -198,7 +198,7 @@ TEST(Capture, MasksAreFoundByNameOrByPath) {
 TEST_P(Captures, PicturesAreLookedAt) {
   const struct {
     const char *Content, *Message;
-  } Cases[] = {{"text", "not a picture, expected a PNG, JPEG or WebP"},
+  } Cases[] = {{"text", "a text, expected a picture as PNG, JPEG or WebP"},
                {"small", "3x2 pixels, expected 8x6 as its camera says"}};
   for (const auto &[Content, Message] : Cases) {
     Folder Files = folderOf(GetParam(), sampleCapture());

@@ -1,4 +1,5 @@
 #include "capture/ColmapRecords.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Letters.h"
 
 #include <algorithm>
@@ -75,6 +76,12 @@ private:
 template <typename Function>
 std::optional<Error> eachRecord(const ColmapFile &F, std::string_view Kind,
                                 Function One) {
+  if (const FileKind K = fileKindOf(F.Content);
+      K != FileKind::Unknown && K != FileKind::Empty &&
+      K != FileKind::ColmapCameras && K != FileKind::ColmapImages &&
+      K != FileKind::ColmapPoints)
+    return otherKind(F.Where, F.Content,
+                     fmt::format("the {}s of COLMAP in binary", Kind), "");
   ByteReader R(F);
   const auto Count = R.take<uint64_t>();
   if (auto Short = R.shortOf("the number of", 0, Count))

@@ -263,8 +263,10 @@ TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
                 "points: the file ends within point 12"},
                {[](Parts &P) { P.Points += '\0'; },
                 "points: 1 byte after the last record"},
-               {[](Parts &P) { P.Images = "1234"; },
+               {[](Parts &P) { P.Images = std::string(4, '\1'); },
                 "images: 4 bytes, expected the number of images first"},
+               {[](Parts &P) { P.Images = "1234"; },
+                "images: a text, expected the images of COLMAP in binary"},
                {[](Parts &P) { patch<int32_t>(P.Images, 68, 3); },
                 "image a0.png has camera 3, expected one of the 1 cameras"},
                // The number of points that it sees.

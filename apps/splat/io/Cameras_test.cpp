@@ -287,7 +287,7 @@ TEST(Cameras, AViewThatSeveralMayBeSaysWhich) {
 
 TEST(Cameras, WhatIsNoCameraListIsAnError) {
   const TestFolder Folder;
-  EXPECT_NE(errorOf(Folder, "").find("not JSON"), std::string::npos);
+  EXPECT_NE(errorOf(Folder, "").find("an empty file"), std::string::npos);
   EXPECT_NE(errorOf(Folder, "[{]").find("not JSON"), std::string::npos);
   EXPECT_NE(errorOf(Folder, "{}").find("array of cameras"), std::string::npos);
   EXPECT_NE(errorOf(Folder, "[]").find("array of cameras"), std::string::npos);

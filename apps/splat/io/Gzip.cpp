@@ -1,4 +1,5 @@
 #include "io/Gzip.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Letters.h"
 
 #include <algorithm>
@@ -9,9 +10,7 @@
 
 namespace vorion::splat {
 
-bool isGzip(Bytes File) {
-  return File.size() >= 2 && byteAt(File, 0) == 0x1F && byteAt(File, 1) == 0x8B;
-}
+bool isGzip(Bytes File) { return hasMark(FileKind::Gzip, File); }
 
 std::string gzipOf(const std::string &Content) {
   z_stream Stream{};

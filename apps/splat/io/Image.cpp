@@ -4,6 +4,7 @@
 #include "io/Npz.h"
 #include "io/PhotoFile.h"
 #include "vorion/support/File.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Letters.h"
 
 #include <algorithm>
@@ -89,8 +90,12 @@ Expected<ExactImage> readPfm(const std::string &Path) {
   if (nextWord(Text) != "PF" || !parseWhole(nextWord(Text), I.Width) ||
       !parseWhole(nextWord(Text), I.Height) ||
       !parseWhole(nextWord(Text), Scale) || I.Width < 1 || I.Height < 1 ||
-      I.Width > MaxPictureSide || I.Height > MaxPictureSide)
-    return Error{Path, "not a colour PFM, expected `PF`, width, height, scale"};
+      I.Width > MaxPictureSide || I.Height > MaxPictureSide) {
+    constexpr const char *Wanted = "a colour PFM: `PF`, width, height, scale";
+    if (fileKindOf(*File) != FileKind::Pfm)
+      return otherKind(Path, *File, Wanted, "not a picture");
+    return Error{Path, fmt::format("another PFM, expected {}", Wanted)};
+  }
   if (!(Scale < 0))
     return Error{Path, "big-endian PFM, expected a negative scale"};
   const std::size_t RowBytes =
@@ -221,11 +226,10 @@ const std::vector<std::string_view> &pictureEndings() {
   return Endings;
 }
 
-static Error unknownEnding(const std::string &Path) {
-  return {Path,
-          fmt::format("unknown ending, expected one of {}",
-                      fmt::join(pictureEndings(), ", ")),
-          ExitCode::Usage};
+constexpr std::string_view UnknownEnding = "unknown ending";
+
+static std::string knownEndings() {
+  return fmt::format("one of {}", fmt::join(pictureEndings(), ", "));
 }
 
 Expected<Success> writeImage(const std::string &Path, const Image &I,
@@ -246,7 +250,9 @@ Expected<Success> writeImage(const std::string &Path, const Image &I,
   if (Has(".webp"))
     return writeEncoded(
         Path, encodeWebP(rowsOf(I).data(), I.Width, I.Height, F.Quality));
-  return unknownEnding(Path);
+  return Error{Path,
+               fmt::format("{}, expected {}", UnknownEnding, knownEndings()),
+               ExitCode::Usage};
 }
 
 /// Of 8 bits a channel, over black.
@@ -283,11 +289,15 @@ Expected<ExactImage> readImage(const std::string &Path) {
     return readImageNpz(Path);
   if (Has(".exr")) {
     const auto File = readFile(Path);
+    if (File && fileKindOf(*File) != FileKind::Exr)
+      return otherKind(Path, *File, "an OpenEXR picture", "not a picture");
     return File ? decodeExr(Path, *File) : File.error();
   }
   if (std::ranges::any_of(pictureEndings(), Has))
     return readPhotoFile(Path);
-  return unknownEnding(Path);
+  Error Other = otherKindAt(Path, knownEndings(), UnknownEnding);
+  Other.Code = ExitCode::Usage;
+  return Other;
 }
 
 } // namespace vorion::splat

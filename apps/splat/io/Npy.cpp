@@ -1,6 +1,7 @@
 // The .npy half of Npz.h: one array with its header.
 #include "io/NpyFormat.h"
 #include "io/Npz.h"
+#include "vorion/support/FileKind.h"
 
 #include <bit>
 #include <charconv>
@@ -188,8 +189,12 @@ Expected<NpyArray> parseNpy(const std::string &Where,
                              Bytes.size());
   // Magic, two bytes of version, then the header's length: two bytes in
   // version 1, four in 2 and 3.
-  if (All.size() < 10 || !All.starts_with(Magic))
-    return Error{Where, "not a .npy array, expected NumPy's magic string"};
+  if (!All.starts_with(Magic))
+    return otherKind(Where, Bytes, "a .npy array, which NumPy writes",
+                     "not a .npy array");
+  if (All.size() < 10)
+    return Error{Where, "the .npy array ends within its header, expected a "
+                        "whole one"};
   const int Major = static_cast<unsigned char>(All[6]);
   if (Major < 1 || Major > 3)
     return Error{Where, fmt::format(".npy version {}, expected 1 to 3", Major)};

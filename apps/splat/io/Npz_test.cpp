@@ -105,8 +105,10 @@ TEST(Npy, EachKindOfDamageHasItsMessage) {
         << A.error().What;
   };
   const std::string Four(4, '\0');
-  Expect("", "not a .npy array");
-  Expect("\x93NUMPX1234567890", "not a .npy array");
+  Expect("", "an empty file, expected a .npy array");
+  Expect("\x93NUMPY\1", "ends within its header");
+  Expect("\x93NUMPX1234567890", "expected a .npy array");
+  Expect(std::string(16, '\1'), "not a .npy array");
   Expect(std::string("\x93NUMPY\7\0\0\0", 10), ".npy version 7");
   Expect(npy(header(">f4", "(1,)"), Four), "element type `>f4`");
   Expect(npy(header("<f2", "(2,)"), Four), "element type `<f2`");

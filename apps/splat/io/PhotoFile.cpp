@@ -1,6 +1,7 @@
 #include "io/PhotoFile.h"
 
 #include "io/Cameras.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
@@ -13,21 +14,9 @@
 namespace vorion::splat {
 namespace {
 
-enum class PhotoKind { Png, Jpeg, WebP, None };
-
-PhotoKind kindOf(Bytes File) {
-  const std::string_view Text = asText(File);
-  if (Text.starts_with("\x89PNG\r\n\x1a\n"))
-    return PhotoKind::Png;
-  if (Text.starts_with("\xff\xd8\xff"))
-    return PhotoKind::Jpeg;
-  if (Text.starts_with("RIFF") && Text.substr(0, 12).ends_with("WEBP"))
-    return PhotoKind::WebP;
-  return PhotoKind::None;
-}
-
-Error noPhoto(const std::string &Where) {
-  return {Where, "not a picture, expected a PNG, JPEG or WebP"};
+Error noPhoto(const std::string &Where, Bytes File) {
+  return otherKind(Where, File, "a picture as PNG, JPEG or WebP",
+                   "not a picture");
 }
 
 Error damaged(const std::string &Where, const char *Kind, const char *Why) {
@@ -106,8 +95,8 @@ Expected<Plane> decodeJpeg(const std::string &Where, Bytes File, Plane P) {
 
 Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
   PhotoSize S;
-  switch (kindOf(File)) {
-  case PhotoKind::Png: {
+  switch (fileKindOf(File)) {
+  case FileKind::Png: {
     const PngReader Png(File);
     if (!Png.good())
       return damaged(Where, "PNG", Png.Image.message);
@@ -116,7 +105,7 @@ Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
            static_cast<int>(Png.Image.height)};
     break;
   }
-  case PhotoKind::Jpeg: {
+  case FileKind::Jpeg: {
     const Jpeg J = makeJpeg();
     JpegHeader H;
     if (!readJpegHeader(J, File, H))
@@ -126,13 +115,13 @@ Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
     S = {H.Width, H.Height};
     break;
   }
-  case PhotoKind::WebP:
+  case FileKind::WebP:
     if (!WebPGetInfo(reinterpret_cast<const uint8_t *>(File.data()),
                      File.size(), &S.Width, &S.Height))
       return damaged(Where, "WebP", "its header");
     break;
-  case PhotoKind::None:
-    return noPhoto(Where);
+  default:
+    return noPhoto(Where, File);
   }
   if (S.Width < 1 || S.Height < 1 || S.Width > MaxImageSize ||
       S.Height > MaxImageSize)
@@ -146,12 +135,12 @@ Expected<Plane> decodePhoto(const std::string &Where, Bytes File) {
   const auto Size = photoSize(Where, File);
   if (!Size)
     return Size.error();
-  if (kindOf(File) == PhotoKind::WebP)
+  if (fileKindOf(File) == FileKind::WebP)
     return decodeWebP(Where, File, unpackLimit(File.size()));
   auto P = sized(Where, File, *Size);
   if (!P)
     return P;
-  return kindOf(File) == PhotoKind::Png
+  return fileKindOf(File) == FileKind::Png
              ? decodePng(Where, File, std::move(*P))
              : decodeJpeg(Where, File, std::move(*P));
 }

@@ -3,6 +3,7 @@
 
 #include "io/Bytes.h"
 #include "vorion/support/Expected.h"
+#include "vorion/support/FileKind.h"
 
 #include <cstddef>
 #include <map>
@@ -73,10 +74,7 @@ private:
 };
 
 /// Whether \p File begins as PLYs do.
-inline bool isPlyFile(Bytes File) {
-  const std::string_view Text = asText(File);
-  return Text.starts_with("ply\n") || Text.starts_with("ply\r");
-}
+inline bool isPlyFile(Bytes File) { return hasMark(FileKind::Ply, File); }
 
 /// Reads the header of a PLY; what follows it is not looked at. Errors name the
 /// line. A header may declare any number of things, so nothing here looks

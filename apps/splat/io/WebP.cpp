@@ -1,5 +1,7 @@
 #include "io/WebP.h"
 
+#include "vorion/support/FileKind.h"
+
 #include <fmt/format.h>
 #include <webp/decode.h>
 #include <webp/encode.h>
@@ -13,8 +15,13 @@ static const uint8_t *dataOf(Bytes File) {
 Expected<Plane> planeForWebP(const std::string &Where, Bytes File,
                              std::size_t Limit) {
   WebPBitstreamFeatures Features;
-  if (WebPGetFeatures(dataOf(File), File.size(), &Features) != VP8_STATUS_OK)
-    return Error{Where, "not a WebP picture, expected a lossless one"};
+  if (WebPGetFeatures(dataOf(File), File.size(), &Features) != VP8_STATUS_OK) {
+    constexpr const char *Wanted = "a lossless WebP picture";
+    if (fileKindOf(File) != FileKind::WebP)
+      return otherKind(Where, File, Wanted, "not a WebP picture");
+    return Error{Where,
+                 fmt::format("damaged WebP picture, expected {}", Wanted)};
+  }
   if (Features.has_animation != 0)
     return Error{Where, "an animation, expected a still WebP picture"};
   Plane P;

@@ -1,5 +1,7 @@
 #include "io/Zip.h"
 
+#include "vorion/support/FileKind.h"
+
 #include <fmt/format.h>
 #include <utility>
 #include <zip.h>
@@ -24,16 +26,17 @@ std::string describe(zip_error_t &E) {
 
 } // namespace
 
-bool isZip(Bytes File) {
-  return File.size() >= 4 && load<uint32_t>(File, 0) == 0x04034b50;
-}
+bool isZip(Bytes File) { return hasMark(FileKind::Zip, File); }
 
 void ZipArchive::Discard::operator()(zip *Z) const { zip_discard(Z); }
 
 Expected<ZipArchive> ZipArchive::open(const std::string &Where,
                                       const std::string &What, Bytes File) {
+  const auto None = [&] {
+    return otherKind(Where, File, What, "not a zip archive");
+  };
   if (File.empty()) // which libzip takes for an archive without entries
-    return Error{Where, fmt::format("the file is empty, expected {}", What)};
+    return None();
   zip_error_t E;
   zip_error_init(&E);
   zip_source_t *Memory =
@@ -43,7 +46,9 @@ Expected<ZipArchive> ZipArchive::open(const std::string &Where,
   zip_t *Z = zip_open_from_source(Memory, ZIP_RDONLY, &E);
   if (!Z) {
     zip_source_free(Memory);
-    return Error{Where, fmt::format("{}, expected {}", describe(E), What)};
+    const std::string Why = describe(E);
+    return isZip(File) ? Error{Where, fmt::format("{}, expected {}", Why, What)}
+                       : None();
   }
   zip_error_fini(&E);
   return ZipArchive(Where, File.size(), Z);

@@ -1,5 +1,5 @@
-/// Files that are no scenes, told by their content: what each is, and what to
-/// do with it. The table is in the source file.
+/// Files that are no scenes: what each is (FileKind.h), and how its owner may
+/// come to a scene.
 #pragma once
 
 #include "io/Bytes.h"
@@ -11,10 +11,6 @@
 #include <vector>
 
 namespace vorion::splat {
-
-/// Judged by the file's beginning: no control characters, and few letters
-/// beyond ASCII. The bytes of numbers soon differ.
-bool isText(Bytes File);
 
 /// Of \p File, which no format of Formats.def takes for its own: why it is no
 /// scene; nothing if it may be a `.splat`, which has no mark. Any text is known

@@ -5,6 +5,7 @@
 #include "scene/formats/Gltf.h"
 #include "scene/formats/SogFolder.h"
 #include "vorion/support/File.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Letters.h"
 
 #include <filesystem>

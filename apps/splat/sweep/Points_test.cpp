@@ -60,7 +60,7 @@ TEST_F(KeptPointsTest, WhatIsNoMeasurementIsNotUsed) {
     return Text.replace(Text.find(What), What.size(), By);
   };
   const std::pair<std::string, const char *> Files[] = {
-      {"", "not JSON"},
+      {"", "an empty file"},
       {"{}", "another point"},
       {"[]", "another point"},
       {"7", "another point"},

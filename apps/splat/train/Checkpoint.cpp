@@ -4,6 +4,7 @@
 #include "io/Hash.h"
 #include "picture/Layout.h"
 #include "vorion/support/File.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
 
@@ -154,7 +155,8 @@ Expected<Checkpoint> readCheckpoint(const std::string &Path) {
 Expected<Checkpoint> parseCheckpoint(const std::string &Path, Bytes File) {
   std::string_view Text = asText(File);
   if (!Text.starts_with(Magic))
-    return Error{Path, "not a checkpoint, expected one of splat train"};
+    return otherKind(Path, File, "a checkpoint of splat train",
+                     "not a checkpoint");
   const auto Line = [&Text] {
     const std::size_t End = std::min(Text.find('\n'), Text.size());
     const std::string_view L = Text.substr(0, End);

@@ -7,6 +7,7 @@
 #include "scene/formats/Formats.h"
 #include "scene/formats/GltfData.h"
 #include "vorion/support/File.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
@@ -358,7 +359,7 @@ bool hasGaussians(const Json &Primitive) {
 
 bool isGltf(Bytes File) {
   const std::string_view Text = asText(File);
-  if (Text.starts_with("glTF"))
+  if (hasMark(FileKind::Glb, File))
     return true;
   const std::size_t Start = Text.find_first_not_of(" \t\r\n");
   return Start != std::string_view::npos && Text[Start] == '{' &&

@@ -13,6 +13,7 @@
 #include "io/Zstd.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
+#include "vorion/support/FileKind.h"
 #include "vorion/support/Letters.h"
 
 #include <array>
@@ -177,7 +178,7 @@ Expected<SceneFile> unpackAndDecode(const std::string &Where, Bytes File) {
   const auto Start = Stream->read(HeaderSize);
   if (!Start)
     return Start.error();
-  if (!asText(*Start).starts_with("NGSP"))
+  if (!hasMark(FileKind::Spz, *Start))
     return Error{Where, "a gzip-packed file of another kind, expected SPZ; "
                         "unpack it with `gunzip`, and name the scene in it"};
   const auto H = readHeader(Where, *Start);
@@ -236,9 +237,7 @@ Expected<SceneFile> unpackArrays(const std::string &Where, const Header &H,
 
 } // namespace
 
-bool isSpz(Bytes File) {
-  return isGzip(File) || asText(File).starts_with("NGSP");
-}
+bool isSpz(Bytes File) { return isGzip(File) || hasMark(FileKind::Spz, File); }
 
 Expected<SceneFile> parseSpz(const std::string &Where, Bytes File,
                              const ReadOptions & /*Options*/) {

@@ -112,7 +112,7 @@ void addSplatDamage(std::vector<DamagedFile> &Out) {
                  "record 0 has position"});
   Out.push_back({"negative-scale.splat", patched(Splat, 16, -1.0F),
                  "scale -1 on axis 1"});
-  Out.push_back({"empty.splat", "", "no Gaussian"});
+  Out.push_back({"empty.splat", "", "an empty file"});
   Out.push_back({"text.splat",
                  "this text has sixty-four bytes, so it could be two "
                  "records......",
@@ -237,7 +237,8 @@ std::vector<DamagedFolder> sogDamage() {
   Meta("palette-large", "for 65 palette entries",
        [](Json &M) { M["shN"]["count"] = 65; });
   File("meta-text", "meta.json", "no JSON", "not JSON: invalid literal");
-  File("plane-text", "quats.webp", "no picture", "not a WebP picture");
+  File("plane-text", "quats.webp", "no picture",
+       "a text, expected a lossless WebP");
   File("plane-short", "quats.webp", cut(Whole.at("quats.webp"), 8),
        "damaged WebP picture");
   File("plane-small", "quats.webp", webpOf(2, 2, std::string(16, '\xff')),
