@@ -26,9 +26,6 @@ bool describeAccess(const Decoded &D, MemoryAccess &A) {
     A.Bytes = bytesOf(Amo::KIND);                                              \
     return true;
 #include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
-#undef AMO
   default:
     return false;
   }

@@ -19,7 +19,6 @@ constexpr const ToolKind *Kinds[] = {
 #define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
   &tools::MEMBER,
 #include "vorion/isasim/SessionOptions.def"
-#undef VORION_SESSION_OPTION
 };
 
 /// The help of an option of \p Kind: what it does, and what it can name.
@@ -42,7 +41,6 @@ std::span<const SessionOption> sessionOptions() {
    help(HELP, tools::MEMBER),                                                  \
    tools::MEMBER.Names},
 #include "vorion/isasim/SessionOptions.def"
-#undef VORION_SESSION_OPTION
   };
   return Options;
 }

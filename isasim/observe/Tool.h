@@ -84,7 +84,6 @@ namespace tools {
 #define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
   extern const ToolKind MEMBER;
 #include "vorion/isasim/SessionOptions.def"
-#undef VORION_SESSION_OPTION
 } // namespace tools
 
 } // namespace vorion::isasim

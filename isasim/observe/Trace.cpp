@@ -24,7 +24,6 @@ constexpr int FormatVersion = 1;
 constexpr std::string_view Names[] = {
 #define VORION_TRACE(NAME) #NAME,
 #include "observe/TraceCategories.def"
-#undef VORION_TRACE
 };
 
 void appendWord(std::string &To, uint32_t Value) {
@@ -116,7 +115,6 @@ Trace::Trace(std::FILE *OutIn, uint32_t CategoriesIn)
 enum class Trace::Category : unsigned {
 #define VORION_TRACE(NAME) NAME,
 #include "observe/TraceCategories.def"
-#undef VORION_TRACE
 };
 
 const Trace::Texts &Trace::textsOf(const Step &S) {

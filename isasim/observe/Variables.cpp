@@ -26,7 +26,6 @@ static constexpr std::array All{
 #define VORION_VARIABLE(NAME, EFFECT, READERS, OPTION, WATCHES)                \
   ReadVariable{NAME, READERS, OPTION},
 #include "vorion/isasim/Variables.def"
-#undef VORION_VARIABLE
 };
 
 static constexpr auto Names = [] {

@@ -12,7 +12,6 @@ namespace vorion::isasim::testing {
 inline constexpr auto Computations = std::to_array<Op>({
 #define INT(OP, RESULT) Op::OP,
 #include "core/insns/integer.def"
-#undef INT
 #define FLOAT(OP, SOFT, RESULT) Op::OP,
 #define FUSED(OP, SOFT, FACTOR, ADDEND) Op::OP,
 #define COMPARE(OP, CONDITION, QUIET_IS_INVALID) Op::OP,
@@ -20,12 +19,6 @@ inline constexpr auto Computations = std::to_array<Op>({
 #define TOINT(OP, SIGNED, SOFT) Op::OP,
 #define FROMINT(OP, SIGNED, SOFT) Op::OP,
 #include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
 });
 
 /// What reads or writes memory.
@@ -34,9 +27,6 @@ inline constexpr auto Accesses = std::to_array<Op>({
 #define STORE(OP, T) Op::OP,
 #define AMO(OP, KIND) Op::OP,
 #include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
-#undef AMO
 });
 
 /// \p First and \p Others behind them.

@@ -20,12 +20,10 @@ CoreTiming numbersOf(CorePreset P) {
   case CorePreset::Vortex5Stage:
 #include "vorion/isasim/CorePresets.def"
     break;
-#undef PRESET
 #define PRESET(MEMBER, VORTEX_5STAGE, VORTEX_2025) Numbers.MEMBER = VORTEX_2025;
   case CorePreset::Vortex2025:
 #include "vorion/isasim/CorePresets.def"
     break;
-#undef PRESET
   }
   return Numbers;
 }

@@ -9,12 +9,7 @@ namespace vorion::isasim {
 /// The groups' descriptions, in the order of the list.
 static constexpr std::pair<std::string_view, std::string_view> Groups[] = {
 #define GROUP(NAME, MEMBER, WHAT) {#NAME, WHAT},
-#define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)
-#define WORD(GROUP, OF, NAME, MEMBER, DEFAULT, UNIT, SOURCE)
 #include "vorion/isasim/TimingParams.def"
-#undef GROUP
-#undef PARAM
-#undef WORD
 };
 
 std::string timingMarkdown() {

@@ -11,7 +11,6 @@ using Json = nlohmann::ordered_json;
 
 std::span<const TimingParam> timingParams() {
   static const TimingParam All[] = {
-#define GROUP(NAME, MEMBER, WHAT)
 #define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)       \
   {#GROUP,   #NAME,                                                            \
    #UNIT,    SOURCE,                                                           \
@@ -29,9 +28,6 @@ std::span<const TimingParam> timingParams() {
    nullptr,                                                                    \
    [](TimingConfig &C) -> std::string & { return C.OF.MEMBER; }},
 #include "vorion/isasim/TimingParams.def"
-#undef GROUP
-#undef PARAM
-#undef WORD
   };
   return All;
 }

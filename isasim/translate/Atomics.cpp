@@ -20,15 +20,10 @@ constexpr int NumFunctionZmms = 4; // with two of its own
 
 Amo kindOf(Op O) {
   switch (O) {
-#define LOAD(OP, T)
-#define STORE(OP, T)
 #define AMO(OP, KIND)                                                          \
   case Op::OP:                                                                 \
     return Amo::KIND;
 #include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
-#undef AMO
   default:
     assert(false && "no atomic");
     return Amo::Add;

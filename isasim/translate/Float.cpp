@@ -83,17 +83,7 @@ bool isRounded(Op O) {
   switch (O) {
 #define FLOAT(OP, SOFT, RESULT) case Op::OP:
 #define FUSED(OP, SOFT, FACTOR, ADDEND) case Op::OP:
-#define COMPARE(OP, CONDITION, QUIET_IS_INVALID)
-#define MINMAX(OP, IS_MIN)
-#define TOINT(OP, SIGNED, SOFT)
-#define FROMINT(OP, SIGNED, SOFT)
 #include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
     return true;
   default:
     return false;
@@ -223,12 +213,6 @@ void Emitter::floating(const GuestInsn &G) {
   case Op::OP:                                                                 \
     return FromInt(SIGNED);
 #include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
   default:
     break;
   }

@@ -24,7 +24,6 @@ void Emitter::integer(const GuestInsn &G) {
   case Op::OP:                                                                 \
     return Becomes(RESULT);
 #include "core/insns/integer.def"
-#undef INT
   case Op::RV_CSRRS: // of what every work-item function reads
     return result(I->Rd, [&](const Xbyak::Zmm &To) {
       if (I->Word >> 20 == CSR_THREAD_ID)
@@ -47,7 +46,6 @@ void Emitter::writeBranch(const GuestInsn &G) {
     Taken = CONDITION;                                                         \
     break;
 #include "core/insns/branch.def"
-#undef BRANCH
   default:
     break;
   }

@@ -26,11 +26,7 @@ Element elementOf(Op O) {
   case Op::OP:                                                                 \
     return {sizeof(T), static_cast<T>(-1) < 0};
 #define STORE(OP, T) LOAD(OP, T)
-#define AMO(OP, KIND)
 #include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
-#undef AMO
   default:
     return {};
   }

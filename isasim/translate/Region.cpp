@@ -48,33 +48,16 @@ Kind kindOf(VectorUnit Unit, Op O, const Insn *I) {
   switch (O) {
 #define INT(OP, RESULT) case Op::OP:
 #include "core/insns/integer.def"
-#undef INT
   case Op::RV_LUI:
   case Op::RV_AUIPC:
     return Kind::Integer;
 #define FLOAT(OP, SOFT, RESULT) case Op::OP:
 #define FUSED(OP, SOFT, FACTOR, ADDEND) case Op::OP:
-#define COMPARE(OP, CONDITION, QUIET_IS_INVALID)
-#define MINMAX(OP, IS_MIN)
-#define TOINT(OP, SIGNED, SOFT)
-#define FROMINT(OP, SIGNED, SOFT)
 #include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef TOINT
-#undef FROMINT
     return roundsAsHost(I) ? Kind::Float : Kind::Other;
-#define FLOAT(OP, SOFT, RESULT)
-#define FUSED(OP, SOFT, FACTOR, ADDEND)
 #define TOINT(OP, SIGNED, SOFT) case Op::OP:
 #define FROMINT(OP, SIGNED, SOFT) case Op::OP:
 #include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
     // The host has a form for every mode but ties away from zero.
     return static_cast<unsigned>(I->Imm) == Rmm ? Kind::Other : Kind::Float;
   case Op::RV_FEQ_S:
@@ -85,7 +68,6 @@ Kind kindOf(VectorUnit Unit, Op O, const Insn *I) {
     return Kind::Float;
 #define BRANCH(OP, CONDITION) case Op::OP:
 #include "core/insns/branch.def"
-#undef BRANCH
     return I->Imm == BadTarget ? Kind::Other : Kind::Branch;
   case Op::RV_CSRRS: {
     const bool OnlyReads = (I->Word >> 12 & 0xFF) == 2; // csrrs rd, csr, x0
@@ -121,26 +103,15 @@ Kind kindOf(VectorUnit Unit, Op O, const Insn *I) {
   case Op::RV_JAL:
     return I->Imm == BadTarget ? Kind::Other : Kind::Jump;
 #define LOAD(OP, T) case Op::OP:
-#define STORE(OP, T)
-#define AMO(OP, KIND)
 #include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
     return Kind::Load;
-#define LOAD(OP, T)
 #define STORE(OP, T) case Op::OP:
 #include "core/insns/memory.def"
-#undef STORE
-#undef AMO
     return Kind::Store;
-#define STORE(OP, T)
 #define AMO(OP, KIND)                                                          \
   case Op::OP:                                                                 \
     return canTranslate(Amo::KIND) ? Kind::Atomic : Kind::Other;
 #include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
-#undef AMO
   default:
     return Kind::Other;
   }

@@ -30,7 +30,6 @@ constexpr auto Operations = joined(
 constexpr Op Branches[] = {
 #define BRANCH(OP, CONDITION) Op::OP,
 #include "core/insns/branch.def"
-#undef BRANCH
 };
 
 /// What splits give to their joins; a predicate, and a place in the code.

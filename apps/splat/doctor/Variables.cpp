@@ -14,7 +14,6 @@ static constexpr std::array Variables{
 #define VORION_VARIABLE(NAME, EFFECT, READERS, OPTION, WATCHES)                \
   KnownVariable{NAME, EFFECT, WATCHES},
 #include "vorion/isasim/Variables.def"
-#undef VORION_VARIABLE
 };
 
 std::span<const KnownVariable> knownVariables() { return Variables; }

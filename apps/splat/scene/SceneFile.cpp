@@ -47,10 +47,7 @@ Expected<SceneFile> parse(const std::string &Where, Bytes File,
 #define SCENE_FORMAT(ID, NAME, AXES, ENDING, TITLE)                            \
   if (is##ID(File))                                                            \
     return parse##ID(Where, File, Options);
-#define SCENE_FOLDER(ID, NAME, AXES, ENDING, TITLE)
 #include "scene/formats/Formats.def"
-#undef SCENE_FORMAT
-#undef SCENE_FOLDER
   if (auto Known = foreignFile(Where, File))
     return *Known;
   return parseSplat(Where, File, Options);
@@ -64,8 +61,6 @@ std::span<const SceneFormatRecord> sceneFormats() {
   {SceneFormat::ID, NAME, AXES, ENDING, TITLE},
 #define SCENE_FOLDER SCENE_FORMAT
 #include "scene/formats/Formats.def"
-#undef SCENE_FORMAT
-#undef SCENE_FOLDER
   };
   return All;
 }

@@ -18,8 +18,6 @@ enum class SceneFormat {
 #define SCENE_FORMAT(ID, NAME, AXES, ENDING, TITLE) ID,
 #define SCENE_FOLDER SCENE_FORMAT
 #include "scene/formats/Formats.def"
-#undef SCENE_FORMAT
-#undef SCENE_FOLDER
 };
 
 struct SceneFormatRecord {

@@ -20,6 +20,5 @@ public:
 #define VORION_CHECK(NAME, MAKE)                                               \
   std::unique_ptr<Check> MAKE(Reporter Out, const Places &Where);
 #include "observe/check/Checks.def"
-#undef VORION_CHECK
 
 } // namespace vorion::isasim

@@ -12,14 +12,12 @@ namespace {
 constexpr std::string_view Names[] = {
 #define VORION_CHECK(NAME, MAKE) #NAME,
 #include "observe/check/Checks.def"
-#undef VORION_CHECK
 };
 
 /// By the number of their name.
 constexpr std::unique_ptr<Check> (*Makers[])(Reporter, const Places &) = {
 #define VORION_CHECK(NAME, MAKE) MAKE,
 #include "observe/check/Checks.def"
-#undef VORION_CHECK
 };
 
 } // namespace

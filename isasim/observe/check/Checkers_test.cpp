@@ -11,7 +11,6 @@ namespace {
 constexpr const char *Names[] = {
 #define VORION_CHECK(NAME, MAKE) #NAME,
 #include "observe/check/Checks.def"
-#undef VORION_CHECK
 };
 
 /// How many checkers \p Text asks for.

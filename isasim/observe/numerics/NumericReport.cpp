@@ -58,7 +58,6 @@ std::string heading() {
   if (&NumericCounts::MEMBER != &NumericCounts::Results)                       \
     Text += fmt::format(" {:>8}", NAME);
 #include "observe/numerics/NumericCounts.def"
-#undef VORION_NUMERIC_COUNT
   return Text + "\n";
 }
 
@@ -72,7 +71,6 @@ std::string row(const NumericCounts &C) {
   if (&NumericCounts::MEMBER != &NumericCounts::Results)                       \
     Text += fmt::format(" {:>8}", Number(C.MEMBER));
 #include "observe/numerics/NumericCounts.def"
-#undef VORION_NUMERIC_COUNT
   return Text;
 }
 
@@ -113,7 +111,6 @@ Json countsJson(const NumericCounts &C) {
   Json J;
 #define VORION_NUMERIC_COUNT(MEMBER, NAME, DOC) J[NAME] = C.MEMBER;
 #include "observe/numerics/NumericCounts.def"
-#undef VORION_NUMERIC_COUNT
   J["mean"] = C.errorMean();
   J["max"] = C.ErrorMax;
   return J;
@@ -154,7 +151,6 @@ std::string numericText(const NumericFindings &F) {
 #define VORION_NUMERIC_COUNT(MEMBER, NAME, DOC)                                \
   Text += fmt::format("# {}: {}\n", NAME, DOC);
 #include "observe/numerics/NumericCounts.def"
-#undef VORION_NUMERIC_COUNT
   Text += fmt::format("\n{}{}  total\n", heading(), row(sum(Lines)));
 
   unsigned Shown = 0, Quiet = 0, Left = 0, Unused = 0;

@@ -15,7 +15,6 @@ struct StageName {
 constexpr StageName StageNames[] = {
 #define VORION_RASTER_STAGE(MEMBER, NAME, DECISION) {NAME, DECISION},
 #include "observe/numerics/RasterStages.def"
-#undef VORION_RASTER_STAGE
 };
 
 double mean(double Sum, uint64_t Count) {

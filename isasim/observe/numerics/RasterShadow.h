@@ -32,7 +32,6 @@ struct StageCounts {
 enum class RasterStage : uint8_t {
 #define VORION_RASTER_STAGE(MEMBER, NAME, DECISION) MEMBER,
 #include "observe/numerics/RasterStages.def"
-#undef VORION_RASTER_STAGE
   Count
 };
 

@@ -48,7 +48,6 @@ static std::array<NumericKind, NumOps> makeKinds() {
   };
 #define INT(OP, RESULT) Set(Op::OP, NumericKind::Integer);
 #include "core/insns/integer.def"
-#undef INT
 #define FLOAT(OP, SOFT, RESULT) Set(Op::OP, NumericKind::Float);
 #define FUSED(OP, SOFT, FACTOR, ADDEND) Set(Op::OP, NumericKind::Float);
 #define COMPARE(OP, CONDITION, QUIET) Set(Op::OP, NumericKind::Compare);
@@ -56,22 +55,12 @@ static std::array<NumericKind, NumOps> makeKinds() {
 #define TOINT(OP, SIGNED, SOFT) Set(Op::OP, NumericKind::ToInt);
 #define FROMINT(OP, SIGNED, SOFT) Set(Op::OP, NumericKind::FromInt);
 #include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
 #define LOAD(OP, T) Set(Op::OP, NumericKind::Load);
 #define STORE(OP, T) Set(Op::OP, NumericKind::Store);
 #define AMO(OP, KIND) Set(Op::OP, NumericKind::Atomic);
 #include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
-#undef AMO
 #define BRANCH(OP, CONDITION) Set(Op::OP, NumericKind::Decide);
 #include "core/insns/branch.def"
-#undef BRANCH
   for (const Op O :
        {Op::VX_SPLIT, Op::VX_SPLIT_N, Op::VX_PRED, Op::VX_PRED_N,
         Op::VX_VOTE_ALL, Op::VX_VOTE_ANY, Op::VX_VOTE_UNI, Op::VX_VOTE_BALLOT})
@@ -108,17 +97,7 @@ void floatInDouble(Op O, const DoubleOperands &In, D &Result, D &Largest) {
     Result = fma(FACTOR, B, ADDEND);                                           \
     Largest = larger(A * B, C);                                                \
     return;
-#define COMPARE(OP, CONDITION, QUIET)
-#define MINMAX(OP, IS_MIN)
-#define TOINT(OP, SIGNED, SOFT)
-#define FROMINT(OP, SIGNED, SOFT)
 #include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
   default:
     Result = D{};
   }
@@ -126,21 +105,10 @@ void floatInDouble(Op O, const DoubleOperands &In, D &Result, D &Largest) {
 
 uint32_t compareInDouble(Op O, const D &A, const D &B) {
   switch (O) {
-#define FLOAT(OP, SOFT, RESULT)
-#define FUSED(OP, SOFT, FACTOR, ADDEND)
 #define COMPARE(OP, CONDITION, QUIET)                                          \
   case Op::OP:                                                                 \
     return bitsOf(CONDITION);
-#define MINMAX(OP, IS_MIN)
-#define TOINT(OP, SIGNED, SOFT)
-#define FROMINT(OP, SIGNED, SOFT)
 #include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
   default:
     return 0;
   }
@@ -153,7 +121,6 @@ void integerResult(Op O, const LaneWords &A, const LaneWords &B, LaneWords &R) {
     R = RESULT;                                                                \
     return;
 #include "core/insns/integer.def"
-#undef INT
   default:
     R = LaneWords{};
   }
@@ -165,7 +132,6 @@ uint32_t decidedLanes(Op O, const LaneWords &A, const LaneWords &B) {
   case Op::OP:                                                                 \
     return laneBits(CONDITION);
 #include "core/insns/branch.def"
-#undef BRANCH
   case Op::VX_SPLIT:
   case Op::VX_SPLIT_N:
   case Op::VX_PRED:

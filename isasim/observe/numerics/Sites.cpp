@@ -11,7 +11,6 @@ namespace vorion::isasim {
 NumericCounts &NumericCounts::operator+=(const NumericCounts &Other) {
 #define VORION_NUMERIC_COUNT(MEMBER, NAME, DOC) MEMBER += Other.MEMBER;
 #include "observe/numerics/NumericCounts.def"
-#undef VORION_NUMERIC_COUNT
   ErrorSum += Other.ErrorSum;
   ErrorMax = std::max(ErrorMax, Other.ErrorMax);
   return *this;

@@ -53,7 +53,6 @@ struct NumericSample {
 struct NumericCounts {
 #define VORION_NUMERIC_COUNT(MEMBER, NAME, DOC) uint64_t MEMBER = 0;
 #include "observe/numerics/NumericCounts.def"
-#undef VORION_NUMERIC_COUNT
   double ErrorSum =
       0; ///< of the relative errors of Results, each at most 1, but of residues
   double ErrorMax = 0;

@@ -17,9 +17,6 @@ namespace vorion::splat {
   bool is##ID(Bytes File);                                                     \
   Expected<SceneFile> parse##ID(const std::string &Where, Bytes File,          \
                                 const ReadOptions &Options);
-#define SCENE_FOLDER(ID, NAME, AXES, ENDING, TITLE)
 #include "scene/formats/Formats.def"
-#undef SCENE_FORMAT
-#undef SCENE_FOLDER
 
 } // namespace vorion::splat

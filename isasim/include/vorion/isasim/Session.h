@@ -22,7 +22,6 @@ struct SessionOptions {
 #define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
   std::string MEMBER;
 #include "vorion/isasim/SessionOptions.def"
-#undef VORION_SESSION_OPTION
 
   /// The files that will be written, but for standard output.
   std::vector<NamedFile> outputs() const;

@@ -29,9 +29,6 @@ struct TimingGroups {
 #define WORD(GROUP, OF, NAME, MEMBER, DEFAULT, UNIT, SOURCE)                   \
   std::string MEMBER = DEFAULT;
 #include "vorion/isasim/TimingParams.def"
-#undef GROUP
-#undef PARAM
-#undef WORD
 };
 
 /// Names of sets of numbers for a core (CorePresets.def).
@@ -47,12 +44,7 @@ struct TimingConfig {
   /// Where the numbers of Core began; single ones may differ by now.
   CorePreset Preset = CorePreset::Forwarding;
 #define GROUP(NAME, MEMBER, WHAT) MEMBER##Timing MEMBER;
-#define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)
-#define WORD(GROUP, OF, NAME, MEMBER, DEFAULT, UNIT, SOURCE)
 #include "vorion/isasim/TimingParams.def"
-#undef GROUP
-#undef PARAM
-#undef WORD
 };
 
 /// Bytes of a cache line and of a request to memory.
