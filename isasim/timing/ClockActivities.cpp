@@ -81,7 +81,7 @@ void Clock::collectRasters(TimeReport &R) const {
   Add("rasterizer", "commands", Raster.Commands);
   Add("rasterizer", "gaussians fetched", Raster.Gaussians);
   Add("rasterizer", "pixels evaluated", Raster.LaneSlots);
-  RasterClock::LaneWork Work;
+  LaneWork Work;
   for (const RasterClock &C : Rasters)
     Work += C.laneWork();
   Add("rasterizer", "pixels blended", Work.allBlended());

@@ -1,24 +1,17 @@
 #include "timing/RasterClock.h"
 
-#include "raster/BlockTests.h"
 #include "raster/RasterTables.h"
 #include "timing/DatapathUnits.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace vorion::isasim {
 
 using raster::GaussianWork;
 
 namespace {
-constexpr unsigned TableSide = raster::VR_MAX_TILE + 1;
 constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
 constexpr unsigned HalfBuffer = raster::VR_MAX_TILE * raster::VR_MAX_TILE / 2;
-/// Of the pixels of a block, where dispatch leaves blocks out.
-constexpr unsigned BlockSide = raster::BlockTests::Side,
-                   BlockPixels = BlockSide * BlockSide;
-
 /// Of a command that was refused, units may not exist.
 size_t expOf(raster::LaneUnits U) {
   return U.Exp < raster::ExpUnitCount ? U.Exp : 0;
@@ -26,48 +19,12 @@ size_t expOf(raster::LaneUnits U) {
 size_t blendOf(raster::LaneUnits U) {
   return U.Blend < raster::BlendUnitCount ? U.Blend : 0;
 }
-
-RasterTiming inPairs(RasterTiming P) {
-  P.Lanes = std::max(1U, P.Lanes / 2);
-  return P;
-}
 } // namespace
 
-DispatchTable::DispatchTable(const RasterTiming &Params)
-    : Timing(Params), Known(size_t{TableSide} * TableSide) {}
-
-unsigned DispatchTable::cycles(unsigned Width, unsigned Height) {
-  uint16_t &Cycles = Known[Width * TableSide + Height];
-  if (Cycles == 0)
-    Cycles = static_cast<uint16_t>(count(Width, Height));
-  return Cycles;
-}
-
-/// A box's place does not matter: it moves all its banks by the same number.
-unsigned DispatchTable::count(unsigned Width, unsigned Height) const {
-  unsigned Cycles = 1, Used = 0;
-  uint64_t Banks = 0;
-  for (unsigned Y = 0; Y != Height; ++Y)
-    for (unsigned X = 0; X != Width; ++X) {
-      const uint64_t Bank = uint64_t{1}
-                            << ((X + Timing.Stagger * Y) % Timing.Banks);
-      if (Used == Timing.Lanes || (Banks & Bank)) {
-        ++Cycles;
-        Used = 0;
-        Banks = 0;
-      }
-      ++Used;
-      Banks |= Bank;
-    }
-  return Cycles;
-}
-
-RasterClock::RasterClock(const TimingConfig &Params, MemoryPort PortIn,
+RasterClock::RasterClock(const TimingConfig &Params, MemoryPort Port,
                          unsigned NumAgents, unsigned QueueDepthIn)
-    : Timing(Params.Raster), WriteCycles(MemorySystem::writeCycles(Params)),
-      Port(PortIn), QueueDepth(QueueDepthIn), Table(Timing),
-      PairTable(inPairs(Timing)), Agents(NumAgents),
-      Fetch(Port, Timing.BufferEntries) {}
+    : Timing(Params.Raster), QueueDepth(QueueDepthIn), Agents(NumAgents),
+      Fetch(Port, Timing.BufferEntries), Lanes(Timing), Store(Params, Port) {}
 
 void RasterClock::watch(const TimeWatch *Observers, unsigned Own) {
   Watch = Observers;
@@ -102,7 +59,7 @@ void RasterClock::reset() {
   IsDirty = true;
   Now = Stage::Idle;
   At = Turn::Never;
-  InLanes = {};
+  Lanes.clear();
   Ledger.clear();
 }
 
@@ -340,69 +297,16 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
     spend(RasterCycle::Clip, Timing.ClipCycles);
     return;
   }
-  const unsigned Lanes = Work.What.IsBackward ? Timing.Lanes / 2 : Timing.Lanes;
-  unsigned Cycles =
-      (Work.What.IsBackward ? PairTable : Table).cycles(G.Width, G.Height);
-  unsigned Slots = G.Slots;
-  // Where saturated pixels get no slot (an option), only the others are packed.
-  if (G.Slots < unsigned{G.Width} * G.Height)
-    Cycles = std::min(Cycles, std::max(1U, (G.Slots + Lanes - 1) / Lanes));
-  if (Timing.SkipBlocks != 0 && !Work.What.IsBackward) {
-    const unsigned ByBlocks = cyclesByBlocks(G);
-    if (ByBlocks < Cycles) {
-      Cycles = ByBlocks;
-      Slots = std::min<unsigned>(Slots, G.BlockPixels);
-    }
-  }
-  const uint64_t Safe = safeAt(G, Cycles);
+  const RasterLanes::Passage P = Lanes.passageOf(G, Work.What.IsBackward);
+  OfLanes.BlockRows += P.BlockRows;
+  const uint64_t Safe = Lanes.safeAt(G, P.Cycles, DispatchAt);
   if (Safe > DispatchAt)
     spend(RasterCycle::Hazard, Safe - DispatchAt);
-  InLanes[NextInLanes] = {G, DispatchAt, Cycles};
-  NextInLanes = (NextInLanes + 1) % Recent;
-  Spent.LaneSlots += Slots;
-  OfLanes.Evaluated[expOf(Work.What.Units)] += Slots;
-  spend(RasterCycle::Blend, std::max<uint64_t>(Cycles, Timing.ClipCycles));
+  Lanes.enter(G, DispatchAt, P.Cycles);
+  Spent.LaneSlots += P.Slots;
+  OfLanes.Evaluated[expOf(Work.What.Units)] += P.Slots;
+  spend(RasterCycle::Blend, std::max<uint64_t>(P.Cycles, Timing.ClipCycles));
   BlendedAt = DispatchAt;
-}
-
-/// Rows of blocks are tested one a cycle, and a block that is left takes a
-/// cycle: its pixels have a bank each.
-unsigned RasterClock::cyclesByBlocks(const GaussianWork &G) {
-  const unsigned Rows = (G.Y + G.Height - 1) / BlockSide - G.Y / BlockSide + 1;
-  OfLanes.BlockRows += Rows;
-  const unsigned AtOnce = std::min(Timing.Lanes, Timing.Banks);
-  return std::max(Rows, G.Blocks * ((BlockPixels + AtOnce - 1) / AtOnce));
-}
-
-/// The earliest start at which every pixel that is still being updated has its
-/// new value when it is read again. Within a box pixels go out at a steady pace
-/// in row order, so that the corners of what two boxes share decide.
-uint64_t RasterClock::safeAt(const GaussianWork &G, unsigned Cycles) const {
-  uint64_t Safe = DispatchAt;
-  const auto When = [](const GaussianWork &B, unsigned Pace, unsigned X,
-                       unsigned Y) {
-    return static_cast<int64_t>(((Y - B.Y) * B.Width + (X - B.X)) * Pace /
-                                (unsigned{B.Width} * B.Height));
-  };
-  for (const Dispatched &D : InLanes) {
-    if (D.Cycles == 0 || D.Start + D.Cycles + Timing.UpdateCycles <= DispatchAt)
-      continue;
-    const GaussianWork &B = D.What;
-    const unsigned X0 = std::max(B.X, G.X), Y0 = std::max(B.Y, G.Y);
-    const unsigned X1 = std::min(B.X + B.Width, G.X + G.Width);
-    const unsigned Y1 = std::min(B.Y + B.Height, G.Y + G.Height);
-    if (X0 >= X1 || Y0 >= Y1)
-      continue;
-    for (const unsigned X : {X0, X1 - 1})
-      for (const unsigned Y : {Y0, Y1 - 1}) {
-        const int64_t Start = static_cast<int64_t>(D.Start) +
-                              When(B, D.Cycles, X, Y) + Timing.UpdateCycles -
-                              When(G, Cycles, X, Y);
-        Safe =
-            std::max(Safe, static_cast<uint64_t>(std::max<int64_t>(Start, 0)));
-      }
-  }
-  return Safe;
 }
 
 /// Dispatch is done: the lanes empty, then the tile is written. A pixel can be
@@ -411,7 +315,7 @@ void RasterClock::flush() {
   const uint64_t Emptied = BlendedAt + laneDepth(Work.What.Units) - 1;
   if (BlendedAt != 0 && !Work.What.IsBackward && Emptied > DispatchAt)
     spend(RasterCycle::Flush, Emptied - DispatchAt);
-  InLanes = {};
+  Lanes.clear();
   Draining = {};
   At = DispatchAt;
   IsDirty = true;
@@ -435,44 +339,16 @@ void RasterClock::drainBehind() {
   goOn();
 }
 
-/// A line of the tile of \p J; returns its pixels.
-uint32_t RasterClock::writeLine(MemorySystem &Memory, const raster::Job &J,
-                                Place &Next, unsigned Set) {
-  const uint32_t RowBytes = J.Width * PixelBytes;
-  const uint32_t Address = J.Output + Next.Row * J.OutputPitch + Next.Byte;
-  const uint32_t Line = lineOf(Address);
-  const uint32_t Bytes =
-      std::min(Line + TimingLineBytes - Address, RowBytes - Next.Byte);
-  Fetch.beginSet(Set);
-  Fetch.line(Memory, Set, Line,
-             Bytes == TimingLineBytes ? CacheOp::WriteWhole : CacheOp::Write);
-  Next.Byte += Bytes;
-  if (Next.Byte == RowBytes)
-    Next = {Next.Row + 1, 0};
-  return Bytes / PixelBytes;
-}
-
 void RasterClock::drain(MemorySystem &Memory) {
   Fetch.waitUntil(At);
-  OfLanes.Moved +=
-      writeLine(Memory, Work.What, Draining, GaussianFetch::Others);
+  OfLanes.Moved += TileStore::writeLine(Memory, Fetch, Work.What, Draining,
+                                        GaussianFetch::Others);
   drained();
 }
 
-/// When writing the tile of \p J can go on: the slice takes a line a cycle, or
-/// holds the rasterizer up. Not before \p Earliest; Turn::Never if that is not
-/// known yet. \p Next is behind the line that was written last.
-uint64_t RasterClock::goesOnAt(unsigned Set, uint64_t Earliest,
-                               const raster::Job &J, const Place &Next) const {
-  const uint64_t Taken = Fetch.readyAt(Set);
-  if (Taken == Turn::Never)
-    return Turn::Never;
-  return std::max(Earliest, Taken > WriteCycles ? Taken - WriteCycles : 0) +
-         (Next.Row == J.Height ? Timing.PortCycles : 0);
-}
-
 void RasterClock::drained() {
-  At = goesOnAt(GaussianFetch::Others, DispatchAt + 1, Work.What, Draining);
+  At = Store.goesOnAt(Fetch, GaussianFetch::Others, DispatchAt + 1, Work.What,
+                      Draining);
   if (At == Turn::Never)
     return;
   spend(RasterCycle::Drain, At - DispatchAt);
@@ -482,14 +358,15 @@ void RasterClock::drained() {
 
 void RasterClock::writeBehind(MemorySystem &Memory) {
   Fetch.waitUntil(Behind->At);
-  OfLanes.Moved += writeLine(Memory, Behind->Work.What, Behind->Next,
-                             GaussianFetch::EvenOthers);
+  OfLanes.Moved +=
+      TileStore::writeLine(Memory, Fetch, Behind->Work.What, Behind->Next,
+                           GaussianFetch::EvenOthers);
   writtenBehind();
 }
 
 void RasterClock::writtenBehind() {
-  Behind->At = goesOnAt(GaussianFetch::EvenOthers, Fetch.now(),
-                        Behind->Work.What, Behind->Next);
+  Behind->At = Store.goesOnAt(Fetch, GaussianFetch::EvenOthers, Fetch.now(),
+                              Behind->Work.What, Behind->Next);
 }
 
 /// Whoever waits for the buffer, or has nothing else to do, spent its time on
@@ -498,7 +375,7 @@ RasterClock::Finished RasterClock::finishBehind(MemorySystem &Memory) {
   const Written Done = std::move(*Behind);
   Behind.reset();
   --Agents[Done.Agent].Behind;
-  const uint64_t End = storeRest(Memory, Done.Work, Done.At);
+  const uint64_t End = Store.writeRest(Memory, Done.Work, Done.At);
   const bool Waits =
       Now == Stage::Idle ||
       (At == Turn::Never && (Now == Stage::Take || Now == Stage::Full));
@@ -512,34 +389,11 @@ RasterClock::Finished RasterClock::finishBehind(MemorySystem &Memory) {
   return Ended;
 }
 
-/// What follows a tile's pixels: rows of last contributors, the pixel unit's
-/// record, a line a cycle from \p Then on. Returns the end.
-uint64_t RasterClock::storeRest(MemorySystem &Memory,
-                                const raster::CommandWork &Of, uint64_t Then) {
-  const auto Write = [&](uint32_t Line) {
-    Memory.access(Port.Cluster,
-                  {.Now = Then++, .Address = Line, .Op = CacheOp::Write});
-  };
-  if (Of.What.KeepsLast && !Of.What.IsBackward && !Of.hasFailed())
-    for (unsigned Row = 0; Row != Of.What.Height; ++Row) {
-      const uint32_t First = Of.What.Last + Row * (Of.What.OutputPitch / 4);
-      const uint32_t End = First + Of.What.Width * 4;
-      for (uint32_t Line = lineOf(First); Line < End; Line += TimingLineBytes)
-        Write(Line);
-    }
-  if (Of.What.KeepsCounts && !Of.What.IsBackward && !Of.hasFailed())
-    Write(lineOf(Of.What.Last));
-  if (Of.HandedOver)
-    for (uint32_t Byte = 0; Byte < sizeof(raster::Tail);
-         Byte += TimingLineBytes)
-      Write(Of.What.TailRecord + Byte);
-  return Then;
-}
-
 RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
   if (Work.What.IsBackward)
     Agents[Serving].Batches.push_back(false);
-  spend(RasterCycle::Drain, storeRest(Memory, Work, DispatchAt) - DispatchAt);
+  spend(RasterCycle::Drain,
+        Store.writeRest(Memory, Work, DispatchAt) - DispatchAt);
   const Finished Done = complete(Work, Serving, TakenAt, DispatchAt);
   goOn();
   return Done;
@@ -560,22 +414,6 @@ void RasterClock::goOn() {
   const bool More = std::ranges::any_of(Agents, &Agent::hasCommand);
   Now = More ? Stage::Take : Stage::Idle;
   At = More ? DispatchAt : Turn::Never;
-}
-
-RasterClock::LaneWork &
-RasterClock::LaneWork::operator+=(const LaneWork &Other) {
-  for (size_t N = 0; N != Evaluated.size(); ++N)
-    Evaluated[N] += Other.Evaluated[N];
-  for (size_t N = 0; N != Blended.size(); ++N)
-    Blended[N] += Other.Blended[N];
-  Gradients += Other.Gradients;
-  Moved += Other.Moved;
-  BlockRows += Other.BlockRows;
-  return *this;
-}
-
-uint64_t RasterClock::LaneWork::allBlended() const {
-  return std::accumulate(Blended.begin(), Blended.end(), uint64_t{0});
 }
 
 void RasterClock::end(uint64_t End) {

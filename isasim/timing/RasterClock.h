@@ -1,36 +1,23 @@
-/// How long a rasterizer takes: queues, Gaussian buffer, dispatch, banks,
-/// lanes, drain.
+/// How long a rasterizer takes: the commands in its queues, one after the
+/// other, from fetching Gaussians (GaussianFetch.h) over the lanes
+/// (RasterLanes.h) to writing the tile (TileStore.h).
 #pragma once
 
 #include "raster/RasterAgent.h"
-#include "raster/UnitTables.h"
 #include "raster/WorkLog.h"
 #include "timing/CycleLedger.h"
 #include "timing/GaussianFetch.h"
 #include "timing/MemorySystem.h"
+#include "timing/RasterLanes.h"
+#include "timing/TileStore.h"
 #include "timing/TimeObserver.h"
 #include "timing/Turn.h"
 
-#include <array>
 #include <deque>
 #include <optional>
 #include <vector>
 
 namespace vorion::isasim {
-
-/// Cycles that dispatch needs to give a box of pixels to the lanes: in row
-/// order, as many a cycle as there are lanes, until two would need the same
-/// bank of the pixel buffer.
-class DispatchTable {
-public:
-  explicit DispatchTable(const RasterTiming &Params);
-  unsigned cycles(unsigned Width, unsigned Height);
-
-private:
-  unsigned count(unsigned Width, unsigned Height) const;
-  const RasterTiming Timing;
-  std::vector<uint16_t> Known; ///< 0: not yet
-};
 
 /// One rasterizer. Its owner calls step() in the order of time.
 class RasterClock {
@@ -100,18 +87,7 @@ public:
   /// The run ended at \p End.
   void end(uint64_t End);
   const RasterTime &time() const { return Spent; }
-  /// What its lanes and its pixel buffer did, for models of energy. What was
-  /// blended counts when its command is taken.
-  struct LaneWork {
-    std::array<uint64_t, raster::ExpUnitCount> Evaluated{};
-    std::array<uint64_t, raster::BlendUnitCount> Blended{};
-    uint64_t Gradients = 0; ///< of pixels, in the backward mode
-    uint64_t Moved = 0; ///< pixels cleared, loaded or stored with their tile
-    uint64_t BlockRows = 0; ///< of boxes, where blocks of them are tested
-
-    LaneWork &operator+=(const LaneWork &Other);
-    uint64_t allBlended() const;
-  };
+  /// What its lanes and its pixel buffer did.
   const LaneWork &laneWork() const { return OfLanes; }
 
 private:
@@ -126,23 +102,12 @@ private:
 
     bool hasCommand() const { return Queued != Behind; }
   };
-  /// How much of a tile has been asked to be written.
-  struct Place {
-    unsigned Row = 0;
-    uint32_t Byte = 0; ///< of the row
-  };
   /// A tile that is written while others are blended.
   struct Written {
     raster::CommandWork Work;
     unsigned Agent;
     uint64_t TakenAt, At;
-    Place Next;
-  };
-  /// A Gaussian whose pixels may still be in the lanes.
-  struct Dispatched {
-    raster::GaussianWork What{};
-    uint64_t Start = 0;
-    unsigned Cycles = 0;
+    TileStore::Place Next;
   };
   enum class Stage : uint8_t {
     Idle,
@@ -174,33 +139,21 @@ private:
   void fetched();
   bool endsBatch(size_t Gaussian) const;
   void dispatch(const raster::GaussianWork &G, uint64_t Ready);
-  unsigned cyclesByBlocks(const raster::GaussianWork &G);
-  uint64_t safeAt(const raster::GaussianWork &G, unsigned Cycles) const;
   void flush();
   bool fitsBuffer(const raster::Job &J) const;
   void drainBehind();
-  uint32_t writeLine(MemorySystem &Memory, const raster::Job &J, Place &Next,
-                     unsigned Set);
-  uint64_t goesOnAt(unsigned Set, uint64_t Earliest, const raster::Job &J,
-                    const Place &Next) const;
   void drain(MemorySystem &Memory);
   void drained();
   void writeBehind(MemorySystem &Memory);
   void writtenBehind();
   Finished finishBehind(MemorySystem &Memory);
-  uint64_t storeRest(MemorySystem &Memory, const raster::CommandWork &Of,
-                     uint64_t Then);
   Finished finish(MemorySystem &Memory);
   Finished complete(const raster::CommandWork &Of, unsigned Agent,
                     uint64_t TakenAt, uint64_t Then);
   void goOn();
 
   const RasterTiming Timing;
-  const uint32_t WriteCycles; ///< MemorySystem::writeCycles()
-  const MemoryPort Port;
   unsigned QueueDepth;
-  DispatchTable Table;
-  DispatchTable PairTable; ///< of pairs of lanes, for the backward mode
   std::vector<Agent> Agents;
   unsigned NextAgent = 0, Serving = 0;
   bool MoreWork = true; ///< see lastWork()
@@ -217,10 +170,9 @@ private:
   /// When the last box of Work had its last lane; 0 if there was none.
   uint64_t BlendedAt = 0;
   GaussianFetch Fetch;
-  static constexpr size_t Recent = 8;
-  std::array<Dispatched, Recent> InLanes{};
-  size_t NextInLanes = 0;
-  Place Draining;
+  RasterLanes Lanes;
+  const TileStore Store;
+  TileStore::Place Draining;
   std::optional<Written> Behind;
   /// Whether the buffer holds what no writing of a tile has cleared.
   bool IsDirty = true;

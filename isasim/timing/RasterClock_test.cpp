@@ -1,4 +1,5 @@
 /// The rasterizer's time against closed formulas.
+#include "testing/Boxes.h"
 #include "timing/DatapathUnits.h"
 #include "timing/RasterClock.h"
 
@@ -10,16 +11,6 @@ using vorion::raster::CommandWork;
 using vorion::raster::GaussianWork;
 
 namespace {
-
-GaussianWork box(unsigned X, unsigned Y, unsigned Width, unsigned Height) {
-  return {0,
-          static_cast<uint8_t>(X),
-          static_cast<uint8_t>(Y),
-          static_cast<uint8_t>(Width),
-          static_cast<uint8_t>(Height),
-          static_cast<uint16_t>(Width * Height),
-          false};
-}
 
 /// Pushed Gaussians into a tile that its core drains: no memory at all.
 CommandWork pushed(std::vector<GaussianWork> Gaussians) {
@@ -99,27 +90,6 @@ TEST_F(RasterClockTest, NarrowTilesAreClearedByRows) {
     EXPECT_EQ(of(timeOf(std::move(W)), RasterCycle::Begin),
               P.Raster.StartCycles + Cycles);
   }
-}
-
-TEST_F(RasterClockTest, BanksDecideHowRowsPack) {
-  DispatchTable Table(P.Raster);
-  EXPECT_EQ(Table.cycles(1, 1), 1U);
-  // Four rows of four, 4 banks apart, have 16 different banks.
-  EXPECT_EQ(Table.cycles(4, 4), 1U);
-  // The fifth row's first pixel has the bank of the first row's: 4 rows a
-  // cycle.
-  EXPECT_EQ(Table.cycles(4, 8), 2U);
-  // In columns, banks repeat after 4 rows.
-  EXPECT_EQ(Table.cycles(1, 64), 16U);
-  // 5 pixels and the next row's first, 4 on: a conflict at once.
-  EXPECT_EQ(Table.cycles(5, 10), 10U);
-  RasterTiming Unstaggered = P.Raster;
-  Unstaggered.Stagger = 0;
-  EXPECT_EQ(DispatchTable(Unstaggered).cycles(4, 4), 4U);
-  // Never fewer than the lanes allow.
-  for (unsigned W = 1; W <= 64; ++W)
-    for (unsigned H = 1; H <= 64; ++H)
-      ASSERT_GE(Table.cycles(W, H), (W * H + 15) / 16);
 }
 
 TEST_F(RasterClockTest, APixelIsNotReadWhileItIsUpdated) {
