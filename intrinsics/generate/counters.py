@@ -10,11 +10,10 @@ event      the member of vx_counters for each of these names
 splat      KernelCounters of the program `splat`, and the table of its members
 """
 
-import argparse
 from types import SimpleNamespace
 
 from printing import C, Cpp, camel, note
-from records import Records, write
+from records import write_for_one_of
 
 C_TYPES = C(u64="uint64_t")
 
@@ -133,14 +132,5 @@ def splat(records):
 READERS = {f.__name__: f for f in (isasim, driver, run, opencl, event, splat)}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tblgen", default="llvm-tblgen-19")
-    parser.add_argument("--for", dest="reader", choices=READERS, required=True)
-    parser.add_argument("output")
-    options = parser.parse_args()
-    write(options.output, "\n".join(READERS[options.reader](Records(options.tblgen))) + "\n")
-
-
 if __name__ == "__main__":
-    main()
+    write_for_one_of(READERS, __doc__)

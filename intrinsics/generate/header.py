@@ -6,11 +6,9 @@ device: vorion.h, for OpenCL C and C kernels: intrinsics, constants, descriptors
 host: vorion_abi.h, for C and C++: constants, CSR numbers, descriptors
 """
 
-import argparse
-
 from intrinsics import intrinsics
 from printing import C, csr_macro, note
-from records import Records, write
+from records import write_for_one_of
 
 DEVICE_HEAD = """#ifndef VORION_H
 #define VORION_H
@@ -82,15 +80,13 @@ def host(records):
     yield "\n#endif"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tblgen", default="llvm-tblgen-19")
-    parser.add_argument("--for", dest="reader", choices=("device", "host"), required=True)
-    parser.add_argument("output")
-    options = parser.parse_args()
-    lines = {"device": device, "host": host}[options.reader](Records(options.tblgen))
-    write(options.output, note("header.py", "/*", "*/") + "\n" + "\n".join(lines) + "\n")
+def noted(lines):
+    """The same behind a note of who made the file."""
+    return lambda records: [note("header.py", "/*", "*/"), *lines(records)]
+
+
+READERS = {f.__name__: noted(f) for f in (device, host)}
 
 
 if __name__ == "__main__":
-    main()
+    write_for_one_of(READERS, __doc__)

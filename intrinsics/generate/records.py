@@ -4,6 +4,7 @@ llvm-tblgen --dump-json is the only reader of TableGen; everything that is
 derived from the records goes through this module.
 """
 
+import argparse
 import json
 import os
 import subprocess
@@ -56,3 +57,14 @@ def write(path, text):
                 return
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
+
+
+def write_for_one_of(readers, doc):
+    """The main program of a script that writes one file for one of several readers: lines, from all records, by the
+    reader's name. The documentation of the script is its help."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tblgen", default="llvm-tblgen-19")
+    parser.add_argument("--for", dest="reader", choices=readers, required=True)
+    parser.add_argument("output")
+    options = parser.parse_args()
+    write(options.output, "\n".join(readers[options.reader](Records(options.tblgen))) + "\n")

@@ -7,10 +7,8 @@ clock   time and parts of each unit, by number
 splat   enumerations with the units' numbers and names, and what the cores' path is compiled with
 """
 
-import argparse
-
 from printing import camel, note
-from records import Records, write
+from records import write_for_one_of
 
 KINDS = ("Exp", "Blend", "Reciprocal")
 # In the order of DatapathUnit.
@@ -118,14 +116,5 @@ def splat(records):
 READERS = {f.__name__: f for f in (raster, clock, splat)}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tblgen", default="llvm-tblgen-19")
-    parser.add_argument("--for", dest="reader", choices=READERS, required=True)
-    parser.add_argument("output")
-    options = parser.parse_args()
-    write(options.output, "\n".join(READERS[options.reader](Records(options.tblgen))) + "\n")
-
-
 if __name__ == "__main__":
-    main()
+    write_for_one_of(READERS, __doc__)
