@@ -96,7 +96,7 @@ std::vector<uint8_t> shrinkAlpha(const Plane &P, int Width, int Height) {
   return Alpha;
 }
 
-Camera resized(const Camera &C, int Width, int Height) {
+Camera stretched(const Camera &C, int Width, int Height) {
   Camera R = C;
   const double X = static_cast<double>(Width) / C.Width;
   const double Y = static_cast<double>(Height) / C.Height;

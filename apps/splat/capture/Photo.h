@@ -31,8 +31,8 @@ Photo shrink(const Photo &P, int Width, int Height);
 /// The alphas of such a picture, one a pixel.
 std::vector<uint8_t> shrinkAlpha(const Plane &P, int Width, int Height);
 
-/// \p C for a picture of another size of the same view.
-Camera resized(const Camera &C, int Width, int Height);
+/// \p C for its picture stretched to another size: all of the view is in it.
+Camera stretched(const Camera &C, int Width, int Height);
 
 /// The side that \p Factor makes of \p Side: rounded, at least 1.
 int shrunkSide(int Side, int Factor);

@@ -109,7 +109,7 @@ TEST(Photo, AlphaIsCompositedOnTheBackground) {
             (std::vector<uint8_t>{244, 20, 102}));
 }
 
-TEST(Photo, ResizedCamerasSeeTheSame) {
+TEST(Photo, StretchedCamerasSeeTheSame) {
   Camera C;
   C.Width = 1000;
   C.Height = 661;
@@ -117,7 +117,7 @@ TEST(Photo, ResizedCamerasSeeTheSame) {
   C.Fy = 1990;
   C.Cx = 500;
   C.Cy = 330.5;
-  const Camera R = resized(C, shrunkSide(1000, 4), shrunkSide(661, 4));
+  const Camera R = stretched(C, shrunkSide(1000, 4), shrunkSide(661, 4));
   EXPECT_EQ(R.Width, 250);
   EXPECT_EQ(R.Height, 165);
   EXPECT_DOUBLE_EQ(R.Fx, 500);

@@ -37,10 +37,11 @@ using Json = nlohmann::ordered_json;
 struct AccuracyArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
-  std::string Folder, AtLeast = "50dB";
-  std::vector<std::string> Check, Knobs, Only;
-  unsigned Jobs = 1, Products = 64, ThumbWidth = 240;
-  bool List = false, NoCores = false, Energy = false;
+  SweepOptions Sweep;
+  std::string AtLeast = "50dB";
+  std::vector<std::string> Check, Knobs;
+  unsigned Products = 64, ThumbWidth = 240;
+  bool NoCores = false, Energy = false;
   TrainSweepPlan Train; ///< where a capture is given
 };
 
@@ -66,7 +67,7 @@ bool hasOwnCameras(const AccuracyArguments &A) {
 
 /// Where they are kept then, for the processes that draw.
 std::string ownCameras(const AccuracyArguments &A) {
-  return A.Folder + "/cameras.json";
+  return A.Sweep.Folder + "/cameras.json";
 }
 
 Expected<SweepPlan> planOf(const AccuracyArguments &A,
@@ -74,7 +75,7 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   SweepPlan P;
   P.Machine = Machine;
   P.ScenePath = A.Scene.Path;
-  P.Folder = A.Folder;
+  P.Folder = A.Sweep.Folder;
   P.CommonArguments = wordsOf(A.Scene);
   P.CameraFile = hasOwnCameras(A) ? ownCameras(A) : A.Cameras.File;
   auto Views = sweptViews(A.Cameras, A.Scene, P.CameraFile);
@@ -87,7 +88,7 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   P.Knobs = std::move(*Knobs);
   P.Cores = !A.NoCores;
   P.Energy = A.Energy;
-  P.Jobs = A.Jobs;
+  P.Jobs = A.Sweep.Jobs;
   P.ThumbWidth = A.ThumbWidth;
   P.Load = [&A] { return loadScene(A.Scene); };
   auto From = sweptOrigin(A.Scene, Machine);
@@ -239,11 +240,11 @@ Expected<Success> writeResults(const SweepPlan &P, KeptPoints &Kept,
 
 Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   if (!A.Train.Capture.empty()) {
-    A.Train.Folder = A.Folder;
-    A.Train.Jobs = A.Jobs;
+    A.Train.Folder = A.Sweep.Folder;
+    A.Train.Jobs = A.Sweep.Jobs;
     A.Train.Energy = A.Energy;
     A.Train.Machine = Machine;
-    return measureTraining(A.Train, A.List, A.Only, sayOfSweep);
+    return measureTraining(A.Train, A.Sweep.List, A.Sweep.Only, sayOfSweep);
   }
   if (A.Scene.Path.empty())
     return usage("no input, expected a scene or --train CAPTURE");
@@ -256,16 +257,16 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   const auto V = splitViews(*P, A.Check);
   if (!V)
     return V.error();
-  if (!A.List)
-    if (auto Made = makeFolders(A.Folder); !Made)
+  if (!A.Sweep.List)
+    if (auto Made = makeFolders(A.Sweep.Folder); !Made)
       return Made.error();
-  if (!A.List && hasOwnCameras(A))
+  if (!A.Sweep.List && hasOwnCameras(A))
     if (auto Written = writeCameras(ownCameras(A), P->Views); !Written)
       return Written;
   KeptPoints Kept = keptPoints(*P, sayOfSweep);
-  if (!A.Only.empty()) {
+  if (!A.Sweep.Only.empty()) {
     std::vector<Point> Wanted;
-    for (const std::string &Name : A.Only) {
+    for (const std::string &Name : A.Sweep.Only) {
       auto One = pointNamed(*P, Name);
       if (!One)
         return One.error();
@@ -276,7 +277,7 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   auto All = currentSettings(*P, Kept, *V, *Floor, A.Products);
   if (!All)
     return All.error();
-  if (A.List) {
+  if (A.Sweep.List) {
     for (const Point &Of : missing(*P, Kept, pointsOf(*P, *All)))
       printOut("{}\n", escaped(Of.name()));
     return Success{};
@@ -310,22 +311,8 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
 
 Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
-  writesFolder(
-      App.add_option("--out", A->Folder,
-                     "Folder for measurements and page; what is there, made "
-                     "from the same, is used (default: the scene's or the "
-                     "capture's name and -accuracy, in this folder)"));
-  App.add_option("--jobs", A->Jobs, "Points measured at the same time")
-      ->check(isBetween(1U, 256U))
-      ->option_text("N");
-  App.add_flag("--list", A->List,
-               "Print the points that are missing, one a line, and measure "
-               "none");
-  App.add_option("--only", A->Only,
-                 "Measure this point alone, as --list prints it; no page")
-      ->option_text("POINT")
-      ->allow_extra_args(false)
-      ->excludes("--list");
+  addSweepOptions(App, A->Sweep, "point",
+                  "the scene's or the capture's name and -accuracy");
   App.add_flag("--energy", A->Energy,
                "The chip's energy as a further axis (docs/energy.md)");
   const std::size_t First = App.get_options().size();
@@ -361,7 +348,7 @@ Runner addAccuracy(CLI::App &App) {
       ->option_text("N");
   addTrainOptions(App, A->Train, optionsFrom(App, First));
   return [A](const DeviceOptions &Machine) {
-    nameOutput("--out", A->Folder,
+    nameOutput("--out", A->Sweep.Folder,
                A->Train.Capture.empty() ? A->Scene.Path : A->Train.Capture,
                "-accuracy");
     return run(*A, Machine);

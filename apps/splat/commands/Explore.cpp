@@ -30,13 +30,12 @@ using Json = nlohmann::ordered_json;
 
 struct ExploreArguments {
   WorkloadArguments Tried;
-  std::string Folder, SpaceFile;
+  SweepOptions Sweep;
+  std::string SpaceFile;
   EnergyArguments Energy;
-  std::vector<std::string> Only;
   std::size_t Machines = 200, Finalists = 50, Checks = 50;
   uint64_t Seed = 1;
-  unsigned Jobs = 1;
-  bool List = false, PrintSpace = false;
+  bool PrintSpace = false;
 };
 
 /// One that is given is checked, but not for each trial of a sweep. Of the
@@ -45,7 +44,7 @@ Expected<Space> spaceOf(const ExploreArguments &A, const Workload &Does,
                         const DeviceOptions &Machine) {
   if (!A.SpaceFile.empty()) {
     auto S = readSpace(A.SpaceFile);
-    if (S && A.Only.empty())
+    if (S && A.Sweep.Only.empty())
       if (auto Checked = checkSpace(*S, Does, Machine, A.SpaceFile); !Checked)
         return Checked.error();
     return S;
@@ -67,12 +66,12 @@ Expected<StudyPlan> planOf(const ExploreArguments &A, Workload Does,
     return S.error();
   StudyPlan P;
   P.Does = std::move(Does);
-  P.Folder = A.Folder;
+  P.Folder = A.Sweep.Folder;
   P.Setup = {Machine, A.Energy.Technology, A.Energy.Volts};
   P.Parameters = std::move(*S);
   for (const Work W : AllWork)
     P.Options[static_cast<std::size_t>(W)] = computingOptions(W);
-  P.Jobs = A.Jobs;
+  P.Jobs = A.Sweep.Jobs;
   auto From = commonOrigin(Machine);
   if (!From)
     return From.error();
@@ -194,7 +193,7 @@ Expected<Success> Study::measureOnly() {
   std::vector<Trial> All = trialsOf(P, P.Does.Small, Machines);
   std::ranges::move(trialsOf(P, P.Does.Whole, Machines),
                     std::back_inserter(All));
-  for (const std::string &Name : A.Only) {
+  for (const std::string &Name : A.Sweep.Only) {
     const auto At = std::ranges::find(
         All, Name, [this](const Trial &One) { return One.name(P.Parameters); });
     if (At == All.end())
@@ -272,7 +271,7 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
   }
   if (A.Tried.input().empty())
     return usage("expected a scene, --workload or --print-space");
-  auto Given = workloadOf(A.Tried, A.Folder);
+  auto Given = workloadOf(A.Tried, A.Sweep.Folder);
   if (!Given)
     return Given.error();
   const auto P = planOf(A, std::move(Given->Does), Machine);
@@ -284,7 +283,7 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
         fmt::format("splat: --machines {}: the base and each change alone "
                     "are always tried, {} machines\n",
                     A.Machines, S.singles()));
-  if (A.List) {
+  if (A.Sweep.List) {
     const auto Left = S.next();
     if (!Left)
       return Left.error();
@@ -292,12 +291,12 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
       printOut("{}\n", escaped(Of.name(P->Parameters)));
     return Success{};
   }
-  if (auto Made = makeFolders(A.Folder); !Made)
+  if (auto Made = makeFolders(A.Sweep.Folder); !Made)
     return Made;
   for (const ViewFile &F : Given->ViewFiles)
     if (auto Written = writeCameras(F.Path, F.Views); !Written)
       return Written;
-  if (!A.Only.empty())
+  if (!A.Sweep.Only.empty())
     return S.measureOnly();
   if (auto Done = S.measureAll(); !Done)
     return Done;
@@ -315,11 +314,8 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
 
 Runner addExplore(CLI::App &App) {
   auto A = std::make_shared<ExploreArguments>();
-  writesFolder(App.add_option(
-      "--out", A->Folder,
-      "Folder for measurements and page; what is there, made from the same, is "
-      "used (default: the scene's or the workload's name and -explore, in this "
-      "folder)"));
+  addSweepOptions(App, A->Sweep, "trial",
+                  "the scene's or the workload's name and -explore");
   App.add_flag("--print-space", A->PrintSpace,
                "Print the space that is explored by default, and end");
   takesFile(App.add_option("--space", A->SpaceFile,
@@ -349,20 +345,9 @@ Runner addExplore(CLI::App &App) {
   App.add_option("--seed", A->Seed, "Of the random machines (default 1)")
       ->check(isBetween<uint64_t>(0, MostSeed))
       ->option_text("N");
-  App.add_option("--jobs", A->Jobs, "Trials measured at the same time")
-      ->check(isBetween(1U, 256U))
-      ->option_text("N");
-  App.add_flag("--list", A->List,
-               "Print the trials that are missing, one a line, and measure "
-               "none");
-  App.add_option("--only", A->Only,
-                 "Measure this trial alone, as --list prints it; no page")
-      ->option_text("TRIAL")
-      ->allow_extra_args(false)
-      ->excludes("--list");
   addWorkloadOptions(App, A->Tried);
   return [A](const DeviceOptions &Machine) {
-    nameOutput("--out", A->Folder, A->Tried.input(), "-explore");
+    nameOutput("--out", A->Sweep.Folder, A->Tried.input(), "-explore");
     return run(*A, Machine);
   };
 }

@@ -3,13 +3,39 @@
 #include "commands/Progress.h"
 #include "io/Hash.h"
 #include "io/Inside.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 #include <set>
 
 namespace vorion::splat {
+
+void addSweepOptions(CLI::App &App, SweepOptions &S, const std::string &What,
+                     const std::string &Default) {
+  writesFolder(App.add_option(
+      "--out", S.Folder,
+      fmt::format("Folder for measurements and page; what is there, made from "
+                  "the same, is used (default: {}, in this folder)",
+                  Default)));
+  App.add_option("--jobs", S.Jobs,
+                 fmt::format("So many {}s are measured at the same time", What))
+      ->check(isBetween(1U, 256U))
+      ->option_text("N");
+  App.add_flag("--list", S.List,
+               fmt::format("Print the {}s that are missing, one a line, and "
+                           "measure none",
+                           What));
+  App.add_option("--only", S.Only,
+                 fmt::format("Measure this {} alone, as --list prints it; no "
+                             "page",
+                             What))
+      ->option_text(upperCase(What))
+      ->allow_extra_args(false)
+      ->excludes("--list");
+}
 
 /// That no view's files would take another's place.
 static Expected<Success> checkNames(const std::vector<Camera> &Views,

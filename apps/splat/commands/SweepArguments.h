@@ -14,6 +14,19 @@
 
 namespace vorion::splat {
 
+/// How a sweep is done.
+struct SweepOptions {
+  std::string Folder; ///< of measurements and page
+  unsigned Jobs = 1;
+  bool List = false;
+  std::vector<std::string> Only; ///< names, as --list prints them
+};
+
+/// Declares them. \p What is what is measured: "point"; \p Default names the
+/// folder without --out.
+void addSweepOptions(CLI::App &App, SweepOptions &S, const std::string &What,
+                     const std::string &Default);
+
 /// The views to draw: all of the file, unless \p C names some. An Error of
 /// usage, at \p File, where two of them would be kept as one file.
 Expected<std::vector<Camera>>

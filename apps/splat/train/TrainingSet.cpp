@@ -57,7 +57,7 @@ Expected<TrainView> load(const CaptureView &V, const CapturePoints &Points,
   const Plane &P = Taken.Picture;
   const int Width = shrunkSide(Pose.Width, O.Downscale);
   const int Height = shrunkSide(Pose.Height, O.Downscale);
-  TrainView T{resized(Pose, Width, Height),
+  TrainView T{stretched(Pose, Width, Height),
               shrink(P, Width, Height, O.Background),
               shrinkCounts(Taken.Counts, P.Width, P.Height, Width, Height),
               {}};
