@@ -82,7 +82,12 @@ const Value *conditionOf(const BasicBlock &Block) {
 /// The conditions on the way to a block, and which of them depend on an id.
 class Conditions {
 public:
-  explicit Conditions(Function &F) : F(F), PostDominators(F) {}
+  /// \p WithBarrier: the blocks that come to one. \p MayReturn: whether a
+  /// work-item that has returned misses none.
+  Conditions(Function &F, SmallPtrSet<const BasicBlock *, 16> WithBarrier,
+             bool MayReturn)
+      : F(F), PostDominators(F), WithBarrier(std::move(WithBarrier)),
+        MayReturn(MayReturn) {}
 
   /// The end of a block that decides by a work-item's id whether \p Block is
   /// reached, or null.
@@ -97,7 +102,8 @@ public:
         if (!decides(Decider, Reached))
           continue;
         SmallPtrSet<const Value *, 16> Values;
-        if (dependsOnId(conditionOf(Decider), Values))
+        if (dependsOnId(conditionOf(Decider), Values) &&
+            !(MayReturn && onlyReturns(Decider, Reached)))
           return Decider.getTerminator();
         Pending.push_back(&Decider);
       }
@@ -115,8 +121,26 @@ private:
            });
   }
 
+  /// Whether a work-item that does not go from \p Decider to \p Reached comes
+  /// to no other barrier, nor to \p Decider again.
+  bool onlyReturns(const BasicBlock &Decider, const BasicBlock *Reached) const {
+    SmallPtrSet<const BasicBlock *, 16> Seen{Reached};
+    SmallVector<const BasicBlock *, 8> Pending{&Decider};
+    while (!Pending.empty())
+      for (const BasicBlock *Next : successors(Pending.pop_back_val())) {
+        if (!Seen.insert(Next).second)
+          continue;
+        if (Next == &Decider || WithBarrier.contains(Next))
+          return false;
+        Pending.push_back(Next);
+      }
+    return true;
+  }
+
   Function &F;
   PostDominatorTree PostDominators;
+  SmallPtrSet<const BasicBlock *, 16> WithBarrier;
+  bool MayReturn;
 };
 
 std::string lineOf(const DebugLoc &Place) {
@@ -151,18 +175,21 @@ void promoteVariables(Function &F) {
 } // namespace
 
 std::vector<vorion::DivergentBarrier>
-vorion::findDivergentBarriers(Function &F) {
+vorion::findDivergentBarriers(Function &F, bool MayReturn) {
   std::vector<DivergentBarrier> Found;
   std::vector<const CallBase *> Barriers;
+  SmallPtrSet<const BasicBlock *, 16> WithBarrier;
   for (const Instruction &I : instructions(F)) {
     const auto *Call = dyn_cast<CallBase>(&I);
     SmallPtrSet<const Function *, 8> Seen{&F};
-    if (Call && hasBarrier(Call->getCalledFunction(), Seen))
-      Barriers.push_back(Call);
+    if (!Call || !hasBarrier(Call->getCalledFunction(), Seen))
+      continue;
+    Barriers.push_back(Call);
+    WithBarrier.insert(Call->getParent());
   }
   if (Barriers.empty())
     return Found;
-  Conditions Ways(F);
+  Conditions Ways(F, std::move(WithBarrier), MayReturn);
   for (const CallBase *Call : Barriers)
     if (const Instruction *Decision = Ways.dividing(Call->getParent()))
       Found.push_back(
@@ -187,7 +214,8 @@ std::string vorion::divergentBarrierLog(const Module &M, StringRef Kind) {
     // whatever decides about that.
     unifyExits(F, LoopInfo(DominatorTree(F)), /*Known=*/true,
                [](IRBuilder<> &Builder) { return Builder.getTrue(); });
-    for (const DivergentBarrier &B : findDivergentBarriers(F)) {
+    const bool IsKernel = F.hasMetadata("kernel_arg_addr_space");
+    for (const DivergentBarrier &B : findDivergentBarriers(F, IsKernel)) {
       Log +=
           placeOf(B.Call->getDebugLoc()) + Kind.str() + ": " + B.Warning + "\n";
     }

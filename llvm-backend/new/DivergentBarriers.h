@@ -30,8 +30,10 @@ struct DivergentBarrier {
 
 /// The barriers of \p F that are reached or not by a condition that is computed
 /// from the work-item's id. Variables are seen through where they are values
-/// (after mem2reg), not in memory.
-std::vector<DivergentBarrier> findDivergentBarriers(Function &F);
+/// (after mem2reg), not in memory. \p MayReturn: whether a work-item that has
+/// returned takes part in all further barriers, as in kernels of OpenCL C.
+std::vector<DivergentBarrier> findDivergentBarriers(Function &F,
+                                                    bool MayReturn);
 
 /// The same for all of \p M, which has not been optimised: a line
 /// "file:line:column: KIND: text" for each, as compilers' logs have them; \p

@@ -261,7 +261,8 @@ bool vorion::lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
   vorion::unifyExits(F, Analyses.getResult<LoopAnalysis>(F), /*Known=*/true,
                      [](IRBuilder<> &Builder) { return Builder.getTrue(); });
   changed();
-  for (const vorion::DivergentBarrier &B : vorion::findDivergentBarriers(F))
+  for (const vorion::DivergentBarrier &B :
+       vorion::findDivergentBarriers(F, /*MayReturn=*/false))
     F.getContext().diagnose(DiagnosticInfoUnsupported(
         F, B.Warning, B.Call->getDebugLoc(), DS_Warning));
 

@@ -35,7 +35,7 @@ kernel void rounds_apart(global uint *out, local uint *t, uint k) {
   out[get_global_id(0)] = r;
 }
 
-// Only the first pass comes to the barrier: not legal.
+// Only the first pass comes to the first barrier, and all to the second: not legal.
 kernel void some(global uint *out, local uint *t, uint k) {
   uint l = get_local_id(0), r = l;
   out[get_global_id(0)] = k;
@@ -44,6 +44,8 @@ kernel void some(global uint *out, local uint *t, uint k) {
     barrier(CLK_LOCAL_MEM_FENCE);
     out[get_global_id(0)] = r + t[15 - l];
   }
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  out[get_global_id(0)] += out[0];
 }
 
 // The group goes three rounds, which only the values of a buffer show: legal,

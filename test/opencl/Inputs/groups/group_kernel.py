@@ -20,6 +20,7 @@ PROLOGUE = """
 #define LOCAL_POINTER(name) local uint *local name
 #define REQUIRED_SIZE(n) __attribute__((reqd_work_group_size(n, 1, 1)))
 #endif
+static int is_odd(uint x) { if (x & 1u) return 1; return x == 6u; }
 static uint bits_of(float f) { return f != f ? 0x7fc00000 : as_uint(f); }
 /* A barrier in a function: who calls it does not see one. */
 static uint pass_on(local uint *t, uint value, uint by) {
@@ -41,13 +42,17 @@ static uint stuck(uint word) {
 
 
 class Kernel:
-    """One kernel; `required` is a group size it is compiled for, or None; `jumps`: with agreed jumps in parting conditionals."""
+    """One kernel; `required` is a group size it is compiled for, or None; `jumps`: with agreed jumps in parting conditionals;
+    `returns`: work-items may return anywhere, and the others go on without them."""
 
-    def __init__(self, rand, name, required, jumps):
+    def __init__(self, rand, name, required, jumps, returns):
         self.random = rand
         self.name = name
         self.required = required
         self.jumps = jumps
+        self.returns = returns
+        # Whether arguments and ids alone decide about code with barriers, nothing from memory.
+        self.plain = returns and self.chance(0.6)
         self.names = 0
         self.weight = 1
         self.counters = []
@@ -79,8 +84,11 @@ class Kernel:
     def uniform(self, depth=0):
         """The same in all work-items of a group."""
         if depth > 1 or self.chance(0.4):
-            return self.pick(["u", "v", "k", "(uint)get_group_id(0)", "n", f"{self.random.randint(1, 9)}u", *self.counters])
+            known = ["k", "(uint)get_group_id(0)", "n", f"{self.random.randint(1, 9)}u", *self.counters]
+            return self.pick(known if self.plain else ["u", "v", *known])
         a, b = self.uniform(depth + 1), self.uniform(depth + 1)
+        if self.plain:
+            return f"({a} {self.pick(['+', '-', '*', '^', '>>'])} ({b} & 15u))"
         return self.pick([f"({a} {self.pick('+-*^')} {b})", f"in[({a}) % {IN_WORDS}u]", f"({a} >> ({b} & 3u))"])
 
     def condition(self, depth=0):
@@ -95,6 +103,8 @@ class Kernel:
     # --- code without barriers --------------------------------------------
 
     def own(self, depth=0, loop=False):
+        if self.returns and self.chance(0.1):
+            return self.leave()
         kind = self.random.random()
         if kind < 0.5 or depth >= self.deepest:
             return self.pick([f"{self.pick('xyz')} = {self.value()};", f"{self.pick('xyz')} += {self.value()};",
@@ -112,6 +122,13 @@ class Kernel:
             return f"if ({self.condition()}) {self.pick(['break;', 'continue;'])}"
         i = self.fresh("i")
         return f"for (uint {i} = 0; {i} < (({self.value(1)}) & 3u); {i}++) {{ {self.own_block(depth + 1, True)} }}"
+
+    def leave(self):
+        """Some work-items return, perhaps all or none."""
+        some = self.pick([self.condition(), f"l >= ({self.uniform(1)})", f"l < ({self.uniform(1)})", f"is_odd({self.value(1)})",
+                          f"l == ({self.uniform(1)}) % n", "get_global_id(0) >= k", "k > 1000u", f"({self.uniform(1)}) % 5u == 1u"])
+        return self.pick([f"if ({some}) return;", f"if ({some}) return;", f"if ({some}) {{ mine[{self.random.randint(0, 7)}] = {self.value(1)}; return; }}",
+                          f"if ({some}) {{ {self.pick('xyz')} = {self.value(1)}; if ({self.condition()}) return; }}"])
 
     def dead_end(self):
         """Where no work-item goes: loops without end and what follows a trap."""
@@ -214,7 +231,10 @@ class Kernel:
         return "\n  ".join(self.together(depth, loop) for _ in range(self.random.randint(1, 3)))
 
     def source(self):
-        declarations, start = self.memory.declarations(), self.memory.start()
+        declarations = self.memory.declarations()
+        # Who returns leaves what he would have set as it is.
+        start = self.memory.cleared() if self.returns else ""
+        start += self.memory.start()
         statements = [self.together(0) for _ in range(self.random.randint(2, 5))]
         statements.insert(self.random.randint(0, len(statements)), self.memory.statement())
         body = "\n  ".join(statements)
@@ -233,12 +253,13 @@ class Kernel:
 class Program:
     """Kernels for any group size, and the same with the sizes that they are compiled for."""
 
-    def __init__(self, seed, kernels, jumps):
+    def __init__(self, seed, kernels, jumps, returns):
         self.random = random.Random(seed)
         self.argument = self.random.randint(0, 40)
         self.input = [self.random.getrandbits(32) >> self.random.choice([0, 0, 28]) for _ in range(IN_WORDS)]
         required = [None] * (kernels - 2) + [7, 16]
-        self.kernels = [Kernel(self.random, f"k{number}", size, jumps) for number, size in enumerate(required)]
+        self.returns = returns
+        self.kernels = [Kernel(self.random, f"k{number}", size, jumps, returns) for number, size in enumerate(required)]
         self.text = PROLOGUE + "".join(kernel.source() for kernel in self.kernels)
 
     def runs(self):
@@ -252,5 +273,5 @@ class Program:
     def host_source(self):
         calls = "".join(f"  run_kernel({name}, {size}, {GROUPS}, {self.out_words(size)}, in, {self.argument});\n"
                         for name, size in self.runs())
-        return (f"#define GROUPS_ON_HOST\n#define LOCAL_WORDS {LOCAL_WORDS}\n#include \"group_host.h\"\n{self.text}\nint main(void) {{\n"
+        return (f"#define GROUPS_ON_HOST\n#define LOCAL_WORDS {LOCAL_WORDS}\n#define MAY_RETURN {int(self.returns)}\n#include \"group_host.h\"\n{self.text}\nint main(void) {{\n"
                 f"  static const uint in[] = {{{', '.join(f'{word}u' for word in self.input)}}};\n{calls}  return fclose(stdout);\n}}\n")

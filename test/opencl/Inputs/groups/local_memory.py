@@ -65,6 +65,17 @@ class LocalMemory:
         self.kernel.random.shuffle(lines)
         return "".join(f"  {line}\n" for line in lines)
 
+    def cleared(self):
+        """Sets everything."""
+        lines = [f"{name} = 0;" for name, _ in self.scalars]
+        lines += [f"for (uint j = 0; j < {size}; j++) {name}[j] = 0;" for name, size in self.arrays]
+        lines += [f"for (uint j = 0; j < 2; j++) {{ {name}[j].a = 0; {name}[j].b[0] = {name}[j].b[1] = 0; {name}[j].c = 0; }}" for name in self.parts]
+        lines += ["for (uint j = 0; j < 64 * 3; j++) rows[j / 3][j % 3] = 0;"] * self.rows
+        lines += ["for (uint j = 0; j < 64; j++) bytes[j] = 0;"] * self.bytes
+        lines += ["quad = (uint4)(0);"] * self.vector + [f"place = {self.arrays[0][0]};"] * self.pointer
+        lines += ["counter = 0;", "for (uint j = 0; j < 16 * 3; j++) kept[j / 3][j % 3] = 0;", "for (uint j = 0; j < 4 * n; j++) t[j] = 0;"]
+        return "  if (l == 0) {\n    " + "\n    ".join(lines) + f"\n  }}\n  {BARRIER}\n"
+
     def start(self):
         """Sets what is kept."""
         if not self.kept and not self.kept_arrays:

@@ -3,6 +3,8 @@
 #include "Barrier.h"
 #include "LLVMUtils.h"
 #include "SimtBlocks.h"
+#include "SimtGuards.h"
+#include "SimtReturns.h"
 #include "SimtRounds.h"
 #include "SimtWorkitems.h"
 #include "VariableUniformityAnalysisResult.hh"
@@ -278,12 +280,25 @@ bool separateHeads(Function &F) {
                 [](const Loop *L) { return separateHeads(*L); });
 }
 
+PreservedAnalyses changedAll() {
+  PreservedAnalyses Kept = PreservedAnalyses::none();
+  Kept.preserve<WorkitemHandlerChooser>();
+  return Kept;
+}
+
 } // namespace
 
 PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
   if (!isKernelToProcess(F) || !hasWorkgroupBarriers(F))
     return PreservedAnalyses::all();
   bool Changed = false;
+  if (returnsBeforeBarrier(F)) {
+    if (!guardReturned(F)) {
+      runInRoundsOfSome(F);
+      return changedAll();
+    }
+    Changed = true;
+  }
   while (separateHeads(F))
     Changed = true;
   for (BlockSet Known; meetBeforeBarrier(F, Known);)
@@ -294,9 +309,7 @@ PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
   }
   if (!Changed)
     return PreservedAnalyses::all();
-  PreservedAnalyses Kept = PreservedAnalyses::none();
-  Kept.preserve<WorkitemHandlerChooser>();
-  return Kept;
+  return changedAll();
 }
 
 REGISTER_NEW_FPASS("simt-meetings", pocl::SimtMeetings, "");

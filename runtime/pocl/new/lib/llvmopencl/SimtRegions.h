@@ -10,6 +10,7 @@
 #define POCL_SIMT_REGIONS_H
 
 #include "ParallelRegion.h"
+#include "SimtWorkitems.h"
 
 #include <set>
 #include <vector>
@@ -37,7 +38,8 @@ public:
   /// its place may be the lane's, which its work-items share one after the
   /// other. Call after arrangeSlots().
   bool isOfLane(llvm::AllocaInst *Variable) const {
-    return Shared.count(Variable) || onlyRegionUsing(Variable);
+    return isLaneVariable(*Variable) || Shared.count(Variable) ||
+           onlyRegionUsing(Variable);
   }
 
   /// The branches of \p F that decide between regions: those in blocks between

@@ -25,8 +25,8 @@ using BlockList = SmallSetVector<BasicBlock *, 16>;
 
 class Rounds {
 public:
-  explicit Rounds(Function &F)
-      : F(F), Entry(&F.getEntryBlock()),
+  Rounds(Function &F, bool OfSome)
+      : F(F), OfSome(OfSome), Entry(&F.getEntryBlock()),
         Number(Type::getInt32Ty(F.getContext())) {}
 
   void run();
@@ -40,11 +40,23 @@ private:
   void keepValuesInSlots();
   BasicBlock *copyFrom(BasicBlock *Start, BasicBlock *End);
   BasicBlock *leaveTo(BasicBlock *At, BasicBlock *End);
+  void addRound(SwitchInst &Choice, BasicBlock *From);
+  BasicBlock *agree(BasicBlock *End, const DebugLoc &At);
+  Value *groupPlace(IRBuilder<> &Builder) const;
+  /// The place of a work-item that has returned; the start is 0, and barriers
+  /// have the numbers between.
+  Constant *ended() const {
+    return ConstantInt::get(Number, Barriers.size() + 1);
+  }
 
   Function &F;
+  /// Whether work-items that have returned wait for the others.
+  const bool OfSome;
   BasicBlock *Entry;
   IntegerType *Number;
   AllocaInst *Place = nullptr;
+  /// Where those of the group are that have not returned.
+  AllocaInst *Common = nullptr;
   /// Values that live in more than one block, until the rounds stand.
   std::vector<AllocaInst *> Slots;
   /// The block that is a barrier, and the one that follows it.
@@ -146,6 +158,72 @@ BasicBlock *Rounds::copyFrom(BasicBlock *Start, BasicBlock *End) {
   return Copied.front();
 }
 
+/// The first place in the source that is known of what \p Block has.
+DebugLoc placeOf(const BasicBlock &Block) {
+  const auto Found = find_if(Block, [](const Instruction &I) {
+    return I.getDebugLoc() && I.getDebugLoc().getLine() != 0;
+  });
+  return Found == Block.end() ? DebugLoc() : Found->getDebugLoc();
+}
+
+/// Adds to \p End, the end of a round, that the work-items that have not
+/// returned tell where they are. They trap if they are not at one place.
+BasicBlock *Rounds::agree(BasicBlock *End, const DebugLoc &At) {
+  IRBuilder<> Builder(End);
+  Value *Own = Builder.CreateLoad(Number, Place);
+  Value *Goes = Builder.CreateICmpNE(Own, ended());
+  Value *First = Builder.CreateBinaryIntrinsic(
+      Intrinsic::cttz, createBallot(Builder, Goes), Builder.getFalse());
+  // Without one that goes on, there is no such lane, and the place is a lane's
+  // own, which is the end.
+  Value *OfPass = createFromLane(Builder, Own, First);
+  Value *Before = Builder.CreateSelect(createIsFirstPass(Builder), ended(),
+                                       Builder.CreateLoad(Number, Common));
+  Builder.CreateStore(
+      Builder.CreateBinaryIntrinsic(Intrinsic::umin, Before, OfPass), Common);
+  Value *Differs =
+      Builder.CreateOr(Builder.CreateICmpNE(Own, OfPass),
+                       Builder.CreateAnd(Builder.CreateICmpNE(Before, ended()),
+                                         Builder.CreateICmpNE(Before, OfPass)));
+  Value *Votes = createBallot(Builder, Builder.CreateAnd(Goes, Differs));
+  auto *Other = create("other_way"), *Agreed = create("round_agreed");
+  Builder.CreateCondBr(Builder.CreateICmpNE(Votes, Builder.getInt32(0)), Other,
+                       Agreed);
+  createTrap(*Other, Agreed, At);
+  return Agreed;
+}
+
+/// The place of which the group goes on. Lanes without a work-item in the last
+/// pass do not know what came of it, but the first lane does.
+Value *Rounds::groupPlace(IRBuilder<> &Builder) const {
+  if (!OfSome)
+    return Builder.CreateLoad(Number, Place);
+  return createFromLane(Builder, Builder.CreateLoad(Number, Common),
+                        ConstantInt::get(Number, 0));
+}
+
+/// Adds the round that begins with \p From as the next choice.
+void Rounds::addRound(SwitchInst &Choice, BasicBlock *From) {
+  ConstantInt *Own = ConstantInt::get(Number, Choice.getNumCases());
+  auto *Begin = create("round_begin"), *End = create("round_end");
+  BasicBlock *Copy = copyFrom(From, End);
+  IRBuilder<> Builder(Begin);
+  Barrier::Create(Builder.CreateBr(Copy));
+  Choice.addCase(Own, Begin);
+  BasicBlock *Last = End;
+  if (OfSome) {
+    // Who has returned goes straight to the end.
+    Instruction *ToCopy = Begin->getTerminator();
+    Builder.SetInsertPoint(ToCopy);
+    Builder.CreateCondBr(
+        Builder.CreateICmpEQ(Builder.CreateLoad(Number, Place), Own), Copy,
+        End);
+    ToCopy->eraseFromParent();
+    Last = agree(End, placeOf(*From));
+  }
+  Barrier::Create(BranchInst::Create(Choice.getParent(), Last));
+}
+
 void Rounds::run() {
   clearEntry();
   separateBarriers();
@@ -156,22 +234,19 @@ void Rounds::run() {
   Place = Builder.CreateAlloca(Number, nullptr, "place");
   Slots.push_back(Place);
   Builder.CreateStore(ConstantInt::get(Number, 0), Place);
+  if (OfSome) {
+    Common = createLaneVariable(Builder, Number, "common_place");
+    Builder.CreateStore(ConstantInt::get(Number, 0), Common);
+  }
   Entry->getTerminator()->setSuccessor(0, Head);
   ReturnInst::Create(F.getContext(), Done);
 
   Builder.SetInsertPoint(Head);
   SwitchInst *Choice = Builder.CreateSwitch(
-      createUniform(Builder, Builder.CreateLoad(Number, Place)), Done,
-      Barriers.size() + 1);
-  const auto AddRound = [&](BasicBlock *From) {
-    auto *Begin = create("round_begin"), *End = create("round_end");
-    Barrier::Create(BranchInst::Create(Head, End));
-    Barrier::Create(BranchInst::Create(copyFrom(From, End), Begin));
-    Choice->addCase(ConstantInt::get(Number, Choice->getNumCases()), Begin);
-  };
-  AddRound(Start);
+      createUniform(Builder, groupPlace(Builder)), Done, Barriers.size() + 1);
+  addRound(*Choice, Start);
   for (const auto &[At, Behind] : Barriers)
-    AddRound(Behind);
+    addRound(*Choice, Behind);
   Barrier::Create(&*Head->getFirstInsertionPt());
 
   EliminateUnreachableBlocks(F);
@@ -181,6 +256,8 @@ void Rounds::run() {
 
 } // namespace
 
-void runInRounds(Function &F) { Rounds(F).run(); }
+void runInRounds(Function &F) { Rounds(F, /*OfSome=*/false).run(); }
+
+void runInRoundsOfSome(Function &F) { Rounds(F, /*OfSome=*/true).run(); }
 
 } // namespace pocl

@@ -28,6 +28,11 @@ namespace pocl {
 /// kernel that lanes can run as it is written is faster that way.
 void runInRounds(llvm::Function &F);
 
+/// The same for a kernel from which single work-items return while others of
+/// the group go on. Those that have returned go through the further rounds
+/// without doing anything. The others agree where the group goes on.
+void runInRoundsOfSome(llvm::Function &F);
+
 } // namespace pocl
 
 #endif

@@ -158,6 +158,44 @@ Value *createUniform(IRBuilder<> &Builder, Value *Word) {
                             {Word});
 }
 
+Value *createBallot(IRBuilder<> &Builder, Value *Condition) {
+  Type *I32 = Builder.getInt32Ty();
+  return Builder.CreateCall(intrinsic(*Builder.GetInsertBlock()->getModule(),
+                                      "vorion.vx_vote_ballot", I32, {I32}),
+                            {Builder.CreateZExt(Condition, I32)});
+}
+
+Value *createFromLane(IRBuilder<> &Builder, Value *Word, Value *Lane) {
+  Type *I32 = Builder.getInt32Ty();
+  // In one segment, of all lanes.
+  Value *Control = Builder.CreateOr(Lane, Builder.getInt32(63 << 6));
+  return Builder.CreateCall(intrinsic(*Builder.GetInsertBlock()->getModule(),
+                                      "vorion.vx_shfl_idx", I32, {I32, I32}),
+                            {Word, Control});
+}
+
+/// Stands for what only the loops over work-items know.
+static constexpr const char *IsFirstPass = "_simt_is_first_pass";
+
+Value *createIsFirstPass(IRBuilder<> &Builder) {
+  return Builder.CreateCall(intrinsic(*Builder.GetInsertBlock()->getModule(),
+                                      IsFirstPass, Builder.getInt1Ty(), {}));
+}
+
+/// Marks a variable as createLaneVariable() says.
+static constexpr const char *LaneVariable = "simt.lane";
+
+AllocaInst *createLaneVariable(IRBuilder<> &Builder, Type *T,
+                               const char *Name) {
+  AllocaInst *Variable = Builder.CreateAlloca(T, nullptr, Name);
+  Variable->setMetadata(LaneVariable, MDNode::get(Builder.getContext(), {}));
+  return Variable;
+}
+
+bool isLaneVariable(const AllocaInst &Variable) {
+  return Variable.hasMetadata(LaneVariable);
+}
+
 bool lowerSimtBarriers(Function &F) {
   std::vector<Instruction *> Barriers;
   for (BasicBlock &Block : F)
@@ -502,10 +540,7 @@ void SimtLoops::makeUniform(Instruction *Terminator) {
   }
 }
 
-/// Ends \p Block with a trap. No lane goes on, but there is a branch to \p
-/// Next, because the compiler needs a place where lanes that part meet again.
-static void trapBefore(BasicBlock &Block, BasicBlock *Next,
-                       const DebugLoc &At) {
+void createTrap(BasicBlock &Block, BasicBlock *Next, const DebugLoc &At) {
   IRBuilder<> Builder(&Block);
   Builder.SetCurrentDebugLocation(At);
   Builder.CreateCall(
@@ -526,7 +561,7 @@ void SimtLoops::trapElsewhere(BasicBlock &Block) {
     if (!IsCutOff(Next))
       continue;
     Next->front().eraseFromParent();
-    trapBefore(*Next, *Own, Block.getTerminator()->getDebugLoc());
+    createTrap(*Next, *Own, Block.getTerminator()->getDebugLoc());
     for (PHINode &Phi : (*Own)->phis())
       Phi.addIncoming(Phi.getIncomingValueForBlock(&Block), Next);
   }
@@ -556,7 +591,7 @@ void SimtLoops::checkAgreement(Instruction *Terminator, Instruction *Condition,
   BasicBlock *Block = Terminator->getParent();
   BasicBlock *Decision = SplitBlock(Block, Terminator);
   auto *Other = BasicBlock::Create(F.getContext(), "other_way", &F, Decision);
-  trapBefore(*Other, Decision, Terminator->getDebugLoc());
+  createTrap(*Other, Decision, Terminator->getDebugLoc());
   Builder.SetInsertPoint(Block->getTerminator());
   Builder.CreateCondBr(Builder.CreateLoad(Builder.getInt1Ty(), Differ), Other,
                        Decision);
@@ -692,7 +727,22 @@ static void measureLoops(Function &F) {
   }
 }
 
+void SimtLoops::answerFirstPass() {
+  Function *Question = M.getFunction(IsFirstPass);
+  if (!Question)
+    return;
+  for (User *U : make_early_inc_range(Question->users())) {
+    auto *Call = cast<CallInst>(U);
+    IRBuilder<> Builder(Call);
+    Call->replaceAllUsesWith(
+        Builder.CreateICmpULT(linearId(Builder), number(Lanes)));
+    Call->eraseFromParent();
+  }
+  Question->eraseFromParent();
+}
+
 void SimtLoops::finish() {
+  answerFirstPass();
   measureLoops(F);
   tidyAllocas();
   erase_if(ContextArrays, [](const ContextArray &Array) {

@@ -58,6 +58,28 @@ void prepareSimtModule(llvm::Module &M);
 /// optimiser does not know that it is the same value.
 llvm::Value *createUniform(llvm::IRBuilder<> &Builder, llvm::Value *Word);
 
+/// A bit for each active lane in which \p Condition holds.
+llvm::Value *createBallot(llvm::IRBuilder<> &Builder, llvm::Value *Condition);
+
+/// \p Word of another lane; if that is not active, the lane's own. A lane that
+/// there is not is at most 63.
+llvm::Value *createFromLane(llvm::IRBuilder<> &Builder, llvm::Value *Word,
+                            llvm::Value *Lane);
+
+/// Whether the work-item is one of the group's first pass.
+llvm::Value *createIsFirstPass(llvm::IRBuilder<> &Builder);
+
+/// A variable that a lane has once for all its work-items, and keeps from pass
+/// to pass and across barriers.
+llvm::AllocaInst *createLaneVariable(llvm::IRBuilder<> &Builder, llvm::Type *T,
+                                     const char *Name);
+bool isLaneVariable(const llvm::AllocaInst &Variable);
+
+/// Ends \p Block with a trap. No lane goes on, but there is a branch to \p
+/// Next, because the compiler needs a place where lanes that part meet again.
+void createTrap(llvm::BasicBlock &Block, llvm::BasicBlock *Next,
+                const llvm::DebugLoc &At);
+
 /// Removes PoCL's barriers, where there are no loops in favour of the
 /// machine's.
 bool lowerSimtBarriers(llvm::Function &F);
@@ -178,6 +200,7 @@ private:
   createLoopAround(const std::set<llvm::BasicBlock *> &InRegion,
                    llvm::BasicBlock *Entry, llvm::BasicBlock *Exit,
                    bool PeeledFirst);
+  void answerFirstPass();
   /// Gives variables of the loops' bodies fixed places in the lane's frame.
   void tidyAllocas();
   /// Tells the optimiser that context arrays are apart from each other and from
