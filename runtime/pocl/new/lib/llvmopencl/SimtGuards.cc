@@ -72,7 +72,9 @@ bool mayBeComputedByAll(const Instruction &I) {
 /// had not.
 class GroupCode {
 public:
-  explicit GroupCode(Function &F) : F(F), Ways(F) {}
+  /// \p Coarse: branches that decide about no barrier do not count, although
+  /// the whole group may take them alike.
+  GroupCode(Function &F, bool Coarse) : F(F), Coarse(Coarse), Ways(F) {}
 
   /// False if the group's way to a barrier depends on what not all may compute.
   bool find();
@@ -93,13 +95,15 @@ public:
   bool goesOnTogether(const BasicBlock *Block) const {
     Value *Condition = decidingValue(*const_cast<BasicBlock *>(Block));
     return passes(Block) &&
-           (Ways.behind(Block).size() < 2 || (Condition && isKnown(Condition)));
+           (Ways.behind(Block).size() < 2 ||
+            (Condition && isKnown(Condition) && counts(Block)));
   }
 
   /// Whether those that have returned know where the group goes on.
   bool leadsAll(const BasicBlock *Block) const {
     const Value *Condition = decidingValue(*const_cast<BasicBlock *>(Block));
-    return passes(Block) && (!Condition || isKnown(Condition));
+    return passes(Block) &&
+           (!Condition || (isKnown(Condition) && counts(Block)));
   }
 
   /// Where the group is together next, behind \p Block.
@@ -118,6 +122,11 @@ public:
   }
 
 private:
+  bool counts(const BasicBlock *Branch) const {
+    return !Coarse || Deciding.contains(Branch);
+  }
+  bool dependsOn(const BasicBlock *Block, const BasicBlock *Branch) const;
+  void findDeciding();
   void findWays();
   bool isKnownChoice(const PHINode &Phi) const;
   bool dropUnknown();
@@ -126,8 +135,11 @@ private:
   bool mayJoinBehind(const BasicBlock *From) const;
 
   Function &F;
+  const bool Coarse;
   WaysToReturn Ways;
   std::set<Edge> Leaving;
+  /// The branches that decide whether the group comes to a barrier.
+  SmallPtrSet<const BasicBlock *, 16> Deciding;
   SmallPtrSet<const BasicBlock *, 32> Passed;
   SmallPtrSet<const Value *, 32> Known;
 };
@@ -158,24 +170,46 @@ bool GroupCode::dropUnknown() {
   return Changed;
 }
 
-/// What depends on a branch at which the group may part (Ferrante, Ottenstein,
-/// Warren 1987) is not of the whole group.
+/// Whether the branch decides if \p Block is passed (Ferrante, Ottenstein,
+/// Warren 1987).
+bool GroupCode::dependsOn(const BasicBlock *Block,
+                          const BasicBlock *Branch) const {
+  return Ways.behind(Branch).size() > 1 &&
+         (Block == Branch || !Ways.leadTo(Branch, Block)) &&
+         any_of(Ways.behind(Branch), [&](const BasicBlock *Next) {
+           return Ways.leadTo(Next, Block);
+         });
+}
+
+void GroupCode::findDeciding() {
+  Deciding.clear();
+  SmallVector<const BasicBlock *, 16> Pending;
+  for (const BasicBlock &Block : F)
+    if (Barrier::hasBarrier(&Block))
+      Pending.push_back(&Block);
+  while (!Pending.empty()) {
+    const BasicBlock *Block = Pending.pop_back_val();
+    for (const BasicBlock &Branch : F)
+      if (dependsOn(Block, &Branch) && Deciding.insert(&Branch).second)
+        Pending.push_back(&Branch);
+  }
+}
+
+/// What depends on a branch at which the group may part is not of the whole
+/// group.
 bool GroupCode::dropParted() {
   bool Changed = false;
-  for (BasicBlock &Branch : F) {
-    if (Ways.behind(&Branch).size() < 2 || goesOnTogether(&Branch))
-      continue;
-    for (BasicBlock *Next : Ways.behind(&Branch))
-      for (BasicBlock &Block : F)
-        if (Ways.leadTo(Next, &Block) &&
-            (&Block == &Branch || !Ways.leadTo(&Branch, &Block)))
+  for (const BasicBlock &Branch : F)
+    if (!goesOnTogether(&Branch))
+      for (const BasicBlock &Block : F)
+        if (passes(&Block) && dependsOn(&Block, &Branch))
           Changed |= Passed.erase(&Block);
-  }
   return Changed;
 }
 
 void GroupCode::findWays() {
   Ways = WaysToReturn(F, Leaving);
+  findDeciding();
   Passed.clear();
   Known.clear();
   for (BasicBlock &Block : F) {
@@ -435,11 +469,14 @@ bool guardReturned(Function &F) {
         return isa<AllocaInst>(I) && I.getParent() != &F.getEntryBlock();
       }))
     return false;
-  GroupCode Code(F);
-  if (!Code.find())
-    return false;
-  Guards(F, Code).add();
-  return true;
+  for (const bool Coarse : {true, false}) {
+    GroupCode Code(F, Coarse);
+    if (!Code.find())
+      continue;
+    Guards(F, Code).add();
+    return true;
+  }
+  return false;
 }
 
 } // namespace pocl
