@@ -6,6 +6,7 @@
 
 #include <llvm/ADT/PostOrderIterator.h>
 #include <llvm/ADT/SetVector.h>
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
@@ -295,6 +296,22 @@ BlockSet GroupCode::afterReturns() const {
   return Found;
 }
 
+/// Leads all ways back of a loop through one block. Otherwise LLVM makes a loop
+/// of its own of the way on which those go back that have returned: they change
+/// nothing there.
+void joinWaysBack(Function &F) {
+  const LoopInfo Loops{DominatorTree(F)};
+  std::vector<std::pair<BasicBlock *, SmallVector<BasicBlock *, 8>>> Found;
+  for (const Loop *L : Loops.getLoopsInPreorder()) {
+    SmallVector<BasicBlock *, 8> Latches;
+    L->getLoopLatches(Latches);
+    if (Latches.size() > 1)
+      Found.push_back({L->getHeader(), Latches});
+  }
+  for (const auto &[Head, Latches] : Found)
+    SplitBlockPredecessors(Head, Latches, ".back");
+}
+
 /// Rewrites a kernel by what GroupCode knows.
 class Guards {
 public:
@@ -458,6 +475,7 @@ void Guards::add() {
   EliminateUnreachableBlocks(F);
   DominatorTree Dominators(F);
   PromoteMemToReg(Slots, Dominators);
+  joinWaysBack(F);
 }
 
 } // namespace
