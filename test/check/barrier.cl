@@ -1,4 +1,4 @@
-// A barrier that half of the work-items reach.
+// A barrier that half of the work-items reach, while the others go to another.
 // REQUIRES: vorion-clang, vorion-cl-link, vorion-device, vorion-sim
 // RUN: vorion-clang -g %s -o %t.elf
 // RUN: not vorion-sim %t.elf --global 16 --local 16 --arg buf:64 --check barrier 2>&1 | FileCheck %s
@@ -12,4 +12,6 @@ kernel void half_of_them(global int *data) {
   if (i < 8)
     barrier(CLK_LOCAL_MEM_FENCE);
   data[i] = shared[15 - i];
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  data[i] += data[15 - i];
 }
