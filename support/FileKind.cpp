@@ -295,10 +295,14 @@ FileKind fileKindOf(std::span<const std::byte> File) {
   const std::string_view Start = textOf(File);
   if (Start.empty())
     return FileKind::Empty;
-  const auto *Known = std::ranges::find_if(
-      Marks, [&](const Mark &M) { return fits(M, Start); });
-  if (Known != std::end(Marks))
-    return Known->Kind == FileKind::Zip ? kindOfZip(Start) : Known->Kind;
+  // Further on, an archive may have a member's name that is another's mark.
+  for (const bool AtBeginning : {true, false}) {
+    const auto *Known = std::ranges::find_if(Marks, [&](const Mark &M) {
+      return (M.At == 0) == AtBeginning && fits(M, Start);
+    });
+    if (Known != std::end(Marks))
+      return Known->Kind == FileKind::Zip ? kindOfZip(Start) : Known->Kind;
+  }
   constexpr std::string_view ByteOrderMark = "\xef\xbb\xbf";
   const std::size_t Before =
       Start.starts_with(ByteOrderMark) ? ByteOrderMark.size() : 0;
@@ -410,8 +414,7 @@ std::string_view adviceFor(FileUse U) {
     return "`vorion-sim` repeats it";
   case FileUse::OwnReport:
     return "`splat replay` makes it again, and `splat compare --times` "
-           "compares "
-           "times";
+           "compares times";
   case FileUse::OtherText:
     return "save it as UTF-8";
   case FileUse::Pointer:

@@ -39,6 +39,10 @@ TEST(FileKind, EveryMarkOfTheTableIsKnown) {
 #include "vorion/support/FileKinds.def"
 }
 
+TEST(FileKind, AMarkAtTheBeginningDecidesFirst) {
+  EXPECT_EQ(kindOf(padded("!<arch>\nWEBP.o/")), FileKind::ObjectArchive);
+}
+
 TEST(FileKind, AReaderAsksForItsOwnMark) {
   EXPECT_TRUE(hasMark(FileKind::Ply, bytesOf("ply\nformat")));
   EXPECT_FALSE(hasMark(FileKind::Ply, bytesOf("plywood")));

@@ -74,14 +74,8 @@ private:
 
 /// Reads a count and so many records with \p One, which gives an Error or not.
 template <typename Function>
-std::optional<Error> eachRecord(const ColmapFile &F, std::string_view Kind,
-                                Function One) {
-  if (const FileKind K = fileKindOf(F.Content);
-      K != FileKind::Unknown && K != FileKind::Empty &&
-      K != FileKind::ColmapCameras && K != FileKind::ColmapImages &&
-      K != FileKind::ColmapPoints)
-    return otherKind(F.Where, F.Content,
-                     fmt::format("the {}s of COLMAP in binary", Kind), "");
+std::optional<Error> readRecords(const ColmapFile &F, std::string_view Kind,
+                                 Function One) {
   ByteReader R(F);
   const auto Count = R.take<uint64_t>();
   if (auto Short = R.shortOf("the number of", 0, Count))
@@ -92,6 +86,28 @@ std::optional<Error> eachRecord(const ColmapFile &F, std::string_view Kind,
     if (auto Bad = One(R, I, Count))
       return Bad;
   return R.leftOver();
+}
+
+/// The same, but of a file of another kind the error says which. COLMAP's files
+/// have no mark, and may begin as another kind does: a count of 26,443 is the
+/// mark of a .splatv. So what can be read is never asked.
+template <typename Function>
+std::optional<Error> eachRecord(const ColmapFile &F, std::string_view Kind,
+                                Function One) {
+  auto Bad = readRecords(F, Kind, One);
+  if (!Bad)
+    return std::nullopt;
+  switch (fileKindOf(F.Content)) {
+  case FileKind::Unknown:
+  case FileKind::Empty:
+  case FileKind::ColmapCameras:
+  case FileKind::ColmapImages:
+  case FileKind::ColmapPoints:
+    return Bad;
+  default:
+    return otherKind(F.Where, F.Content,
+                     fmt::format("the {}s of COLMAP in binary", Kind), "");
+  }
 }
 
 template <typename T> std::optional<Error> errorOf(const Expected<T> &E) {

@@ -243,6 +243,15 @@ TEST(ColmapText, WhiteSpaceAroundLinesSaysNothing) {
   EXPECT_EQ(M->Points.size(), sampleCapture(2).Points.size());
 }
 
+TEST(ColmapBinary, AFileMayBeginAsAnotherKindDoes) {
+  Parts P = partsOf(sampleCapture(2), false);
+  // {" is where tensors (safetensors) have it.
+  patch<int32_t>(P.Images, 8, 0x227b);
+  const auto M = parsed(P, false);
+  ASSERT_TRUE(M) << M.error().Where << ": " << M.error().What;
+  EXPECT_EQ(M->Views.size(), 2U);
+}
+
 TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
   const Parts Whole = partsOf(sampleCapture(2), false);
   const struct {
