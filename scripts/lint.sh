@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Format and static analysis of the code we wrote; part of scripts/test.sh.
-# usage: scripts/lint.sh [--all|--fix]   (--fix formats in place, without analysis;
-# --all analyses the tests too, and what has not changed since it passed)
+# usage: scripts/lint.sh [--fix | --all | --seconds N]
+# --fix: formats in place, without analysis
+# --all: analyses the tests too, and what has not changed since it passed
+# --seconds N: analyses no further file after so long, and says how many are left
 source "$(dirname "$0")/lib.sh"
 showHelp "$@"
 cd "$Root"
@@ -13,7 +15,5 @@ if [ "${1:-}" = --fix ]; then
 fi
 clang-format-19 --dry-run -Werror "${Sources[@]}"
 
-# Without --all, tests and files that have not changed since they passed are left out.
-Options=()
-[ "${1:-}" != --all ] || Options=(--all)
-"$Root/scripts/clang-tidy.py" "$Build" "$Root" "${Options[@]}"
+# clang-tidy.py knows the other options.
+"$Root/scripts/clang-tidy.py" "$Build" "$Root" "$@"

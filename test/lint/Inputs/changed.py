@@ -36,6 +36,7 @@ with open(os.path.join(made, "compile_commands.json"), "w", encoding="utf-8") as
 
 lint("at first")
 lint("again")
+lint("no time", "--all", "--seconds", "0")
 lint("all", "--all")
 write("First.cpp", '#include "Sum.h"\nint theFirst() { return sum(1, 3); }\n')
 lint("one file changed")
