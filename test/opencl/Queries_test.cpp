@@ -2,6 +2,7 @@
 
 #include "TestDevice.h"
 
+#include <array>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -116,6 +117,52 @@ TEST_F(Queries, EveryExtensionHasAVersion) {
 }
 
 /// The platform listed two that no device has.
+/// A program that names no version of OpenCL C has the functions of the
+/// extensions, too.
+TEST_F(Queries, DotProductsOfBytesAreOfferedAndThere) {
+  cl_bitfield Inputs = 0;
+  ASSERT_EQ(
+      device().getInfo(CL_DEVICE_INTEGER_DOT_PRODUCT_CAPABILITIES_KHR, &Inputs),
+      CL_SUCCESS);
+  EXPECT_EQ(Inputs, CL_DEVICE_INTEGER_DOT_PRODUCT_INPUT_4x8BIT_PACKED_KHR |
+                        CL_DEVICE_INTEGER_DOT_PRODUCT_INPUT_4x8BIT_KHR);
+  cl_device_integer_dot_product_acceleration_properties_khr Fast;
+  ASSERT_EQ(device().getInfo(
+                CL_DEVICE_INTEGER_DOT_PRODUCT_ACCELERATION_PROPERTIES_8BIT_KHR,
+                &Fast),
+            CL_SUCCESS);
+  EXPECT_FALSE(Fast.signed_accelerated);
+  cl_bool Small = 0;
+  EXPECT_EQ(
+      clGetDeviceInfo(
+          device()(),
+          CL_DEVICE_INTEGER_DOT_PRODUCT_ACCELERATION_PROPERTIES_4x8BIT_PACKED_KHR,
+          sizeof(Small), &Small, nullptr),
+      CL_INVALID_VALUE);
+
+  const cl::Kernel Kernel = kernel(R"(
+kernel void dots(global int *out) {
+#if defined(cl_khr_integer_dot_product) && defined(cl_khr_extended_bit_ops) && \
+    defined(cl_khr_expect_assume)
+  int i = get_global_id(0);
+  __builtin_assume(i < 4);
+  out[i] = dot_acc_sat((char4)(-i), (uchar4)(255), 10) +
+           dot_4x8packed_uu_uint(0x01020304u, 0x01010101u * i) +
+           bitfield_extract_signed(0x70, 4, 3);
+#endif
+})",
+                                   "dots");
+  cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 16);
+  cl::Kernel Called = Kernel;
+  Called.setArg(0, Out);
+  ASSERT_EQ(enqueue(Called, 4), CL_SUCCESS);
+  std::array<cl_int, 4> Got{};
+  ASSERT_EQ(Device.queue().enqueueReadBuffer(Out, CL_TRUE, 0, 16, Got.data()),
+            CL_SUCCESS);
+  for (int I = 0; I != 4; ++I)
+    EXPECT_EQ(Got[I], -1020 * I + 10 + 10 * I - 1);
+}
+
 TEST_F(Queries, ThePlatformListsNothingThatTheDeviceLacks) {
   const cl::Platform Platform(device().getInfo<CL_DEVICE_PLATFORM>());
   std::istringstream List(Platform.getInfo<CL_PLATFORM_EXTENSIONS>());

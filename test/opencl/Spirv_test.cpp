@@ -16,6 +16,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using vorion::test::TestDevice;
@@ -104,21 +105,31 @@ protected:
   const TestDevice Device;
 };
 
+/// A file and a kernel of it.
+using FileAndKernel = std::pair<const char *, const char *>;
+
 class SpirvKernels : public Spirv,
-                     public testing::WithParamInterface<const char *> {};
+                     public testing::WithParamInterface<FileAndKernel> {};
 
 TEST_P(SpirvKernels, ComputeWhatTheirSourceDoes) {
-  const Bytes Text = fileBytes(VORION_SPIRV_SOURCES "/kernels.cl");
+  const auto [File, Kernel] = GetParam();
+  const Bytes Text =
+      fileBytes(std::string(VORION_SPIRV_SOURCES "/") + File + ".cl");
   std::string Log;
   const cl::Program Source = Device.build({Text.begin(), Text.end()}, Log);
   ASSERT_EQ(Log, "");
-  EXPECT_EQ(run(build(module("kernels")), GetParam()), run(Source, GetParam()));
+  EXPECT_EQ(run(build(module(File)), Kernel), run(Source, Kernel));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SpirvKernels,
-                         testing::Values("vectors", "memory", "integers",
-                                         "math", "groups", "flow"),
-                         [](const auto &Info) { return Info.param; });
+                         testing::Values(FileAndKernel("kernels", "vectors"),
+                                         FileAndKernel("kernels", "memory"),
+                                         FileAndKernel("kernels", "integers"),
+                                         FileAndKernel("kernels", "math"),
+                                         FileAndKernel("kernels", "groups"),
+                                         FileAndKernel("kernels", "flow"),
+                                         FileAndKernel("bits", "bits")),
+                         [](const auto &Info) { return Info.param.second; });
 
 TEST_F(Spirv, TheDeviceSaysWhichVersionsItTakes) {
   EXPECT_NE(device().getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_il_program"),

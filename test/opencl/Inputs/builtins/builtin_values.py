@@ -26,13 +26,14 @@ except ImportError as missing:
     sys.exit(77)
 
 from declarations import declarations
-from values import (atomics, conversions, copies, floats, geometric, groups, images, integers, mathematics, memory, relations)
+from values import (atomics, bits, conversions, copies, floats, geometric, groups, images, integers, mathematics, memory,
+                    relations)
 from values.device import Device
 from values.formats import Vector
 from values.units import Overload
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-FAMILIES = (integers, relations, conversions, memory, floats, geometric, mathematics, atomics, groups, copies,
+FAMILIES = (integers, bits, relations, conversions, memory, floats, geometric, mathematics, atomics, groups, copies,
             images)
 # Declarations that another test has: the pattern of them, the word that stands in the test, a file of test/opencl.
 ELSEWHERE = (

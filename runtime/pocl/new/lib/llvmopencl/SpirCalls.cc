@@ -10,6 +10,7 @@ IGNORE_COMPILER_WARNING("-Wunused-parameter")
 #include <llvm/Demangle/Demangle.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/Instructions.h>
+#include <llvm/Support/Regex.h>
 POP_COMPILER_DIAGS
 
 #include <array>
@@ -71,13 +72,33 @@ std::string signature(StringRef Mangled) {
   return Text;
 }
 
+/// What a declaration of a translated module means, as signature() says it.
+/// Dot products are instructions of SPIR-V. The translator makes functions of
+/// them whose types say nothing of signs, and whose names do.
+std::string meaning(StringRef Mangled) {
+  const std::string Text = signature(Mangled);
+  SmallVector<StringRef, 5> Parts;
+  if (!Regex("^__spirv_(S|U|SU)Dot(AccSat)?(KHR)?_Ru?int"
+             "\\(char vector\\[4\\], char vector\\[4\\](, int)?\\)$")
+           .match(Text, &Parts))
+    return Text;
+  const StringRef Signs = Parts[1];
+  const std::string First = Signs == "U" ? "unsigned char" : "char";
+  const std::string Second = Signs == "S" ? "char" : "unsigned char";
+  const std::string Sum = Parts[2].empty() ? ""
+                          : Signs == "U"   ? ", unsigned int"
+                                           : ", int";
+  return (Parts[2].empty() ? "dot(" : "dot_acc_sat(") + First + " vector[4], " +
+         Second + " vector[4]" + Sum + ")";
+}
+
 /// The library's functions that \p M may mean, by signature.
 StringMap<const Function *> findOffered(const Module &M,
                                         const Module &Library) {
   StringSet<> Wanted;
   for (const Function &F : M)
     if (F.isDeclaration() && !baseName(F.getName()).empty())
-      Wanted.insert(baseName(F.getName()));
+      Wanted.insert(StringRef(meaning(F.getName())).split('(').first);
   StringMap<const Function *> Offered;
   for (const Function &F : Library)
     if (!F.isDeclaration() && Wanted.contains(baseName(F.getName())))
@@ -226,7 +247,7 @@ std::string callLibrary(Module &M, const Module &Library) {
     if (F.isDeclaration() && !baseName(F.getName()).empty())
       Declared.push_back(&F);
   for (Function *F : Declared) {
-    std::string Signature = signature(F->getName());
+    std::string Signature = meaning(F->getName());
     const Function *Own = Offered.lookup(Signature);
     if (!Own) {
       // SPIR-V wants some pointers generic that OpenCL C 1.2 has private. All

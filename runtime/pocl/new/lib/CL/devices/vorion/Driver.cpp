@@ -239,18 +239,39 @@ void freeEventData(cl_event Event) {
   Event->data = nullptr;
 }
 
-cl_int deviceInfo(cl_device_id Device, cl_device_info Name, size_t Size,
-                  void *Value, size_t *SizeRet) {
-  if (Name != CL_DEVICE_WARPS_PER_CORE_VORION)
-    return CL_INVALID_VALUE;
-  const cl_uint Warps = deviceOf(Device).Info.warps;
-  if (Value && Size < sizeof(Warps))
+template <typename T>
+cl_int answer(const T &Is, size_t Size, void *Value, size_t *SizeRet) {
+  if (Value && Size < sizeof(T))
     return CL_INVALID_VALUE;
   if (Value)
-    memcpy(Value, &Warps, sizeof(Warps));
+    memcpy(Value, &Is, sizeof(T));
   if (SizeRet)
-    *SizeRet = sizeof(Warps);
+    *SizeRet = sizeof(T);
   return CL_SUCCESS;
+}
+
+cl_int deviceInfo(cl_device_id Device, cl_device_info Name, size_t Size,
+                  void *Value, size_t *SizeRet) {
+  switch (Name) {
+  case CL_DEVICE_WARPS_PER_CORE_VORION: {
+    const cl_uint Warps = deviceOf(Device).Info.warps;
+    return answer(Warps, Size, Value, SizeRet);
+  }
+  case CL_DEVICE_INTEGER_DOT_PRODUCT_CAPABILITIES_KHR: {
+    const cl_device_integer_dot_product_capabilities_khr All =
+        CL_DEVICE_INTEGER_DOT_PRODUCT_INPUT_4x8BIT_PACKED_KHR |
+        CL_DEVICE_INTEGER_DOT_PRODUCT_INPUT_4x8BIT_KHR;
+    return answer(All, Size, Value, SizeRet);
+  }
+  case CL_DEVICE_INTEGER_DOT_PRODUCT_ACCELERATION_PROPERTIES_8BIT_KHR:
+  case CL_DEVICE_INTEGER_DOT_PRODUCT_ACCELERATION_PROPERTIES_4x8BIT_PACKED_KHR: {
+    // They are products and sums of single bytes.
+    const cl_device_integer_dot_product_acceleration_properties_khr None = {};
+    return answer(None, Size, Value, SizeRet);
+  }
+  default:
+    return CL_INVALID_VALUE;
+  }
 }
 
 } // namespace
