@@ -47,13 +47,13 @@ outside = re.search(r"""(src|href)=["']?(https?:)?//|@import|url\(["']?https?:|\
 assert not outside, f"the page loads {outside}"
 with tempfile.TemporaryDirectory() as folder:
     shot = os.path.join(folder, "shot.png")
-    dumped = chromium(folder, "--dump-dom")
+    # Both of one start, which takes longer than the page.
+    dumped = chromium(folder, "--dump-dom", f"--screenshot={shot}", "--window-size=1200,900")
     assert 'data-test="passed with ' in dumped.stdout, dumped.stdout[:300] + dumped.stderr[-2000:]
     if "color-scheme: light dark" in text:
         assert f', {"dark" if dark else "light"}"' in dumped.stdout, dumped.stdout[:300]
     # A script's complaints are logged as CONSOLE.
     complaints = [line for line in dumped.stderr.splitlines() if "CONSOLE" in line]
     assert not complaints, complaints
-    chromium(folder, f"--screenshot={shot}", "--window-size=1200,900")
     assert len(set(pixels(shot))) > 16, "the screenshot shows nothing"
 print("the page works")
