@@ -6,5 +6,5 @@ Here=$(cd "$(dirname "$0")" && pwd)
 # Sources are small and run for seconds: time goes to compiling.
 verilator --cc --exe --build -j 2 --hierarchical --top-module top --Mdir "$1" -o Bench \
   -Wall -Wno-DECLFILENAME -Wno-UNUSEDSIGNAL \
-  -MAKEFLAGS "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1" -CFLAGS "-std=c++20 -I$Here/../../isasim" \
+  -MAKEFLAGS "CXX=clang++-19 LINK=clang++-19 OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O0" -CFLAGS "-std=c++20 -I$Here/../../isasim" \
   "$Here"/{fp32,exp_table,lane,cut,pixel_bank,dispatch,fetch,tile_writer,rasterizer,top}.sv "$Here/Bench.cpp"
