@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Kernels that call every built-in function which clang declares for a version of OpenCL C.
 
-usage: builtin_calls.py HEADER.i PATTERN OUT.cl
+usage: builtin_calls.py HEADER.i PATTERN OUT.cl [OTHER.i]
 
 HEADER.i is clang's opencl-c.h after the preprocessor. PATTERN is a regular expression: every overload of the functions
-whose names it matches is called, by kernels that share them out. Prints how many there are.
+whose names it matches is called, by kernels that share them out. Prints how many there are. An overload
+that OTHER.i declares in the same words is left out: it has the same symbol, which another file calls.
 """
 
 import re
@@ -63,9 +64,11 @@ def images(overloads):
 
 
 def main():
-    header, pattern, path = sys.argv[1:]
+    header, pattern, path, *others = sys.argv[1:]
+    elsewhere = [declarations(other) for other in others]
     chosen = {name: all_of for name, all_of in declarations(header).items() if re.search(pattern, name)}
-    calls = [(name, *overload) for name, overloads in chosen.items() for overload in overloads]
+    calls = [(name, *overload) for name, overloads in chosen.items() for overload in overloads
+             if not any(overload in other[name] for other in elsewhere)]
     with open(path, "w", encoding="utf-8") as out:
         out.write("#pragma OPENCL EXTENSION cl_khr_fp16 : enable\n")
         for first in range(0, len(calls), CALLS_OF_KERNEL):
@@ -74,7 +77,7 @@ def main():
                       f"{images(share)}) {{\n")
             out.writelines(call(*each) for each in share)
             out.write("}\n")
-    print(f"{len(chosen)} functions, {sum(map(len, chosen.values()))} overloads")
+    print(f"{len(chosen)} functions, {sum(map(len, chosen.values()))} overloads, {len(calls)} called")
 
 
 if __name__ == "__main__":
