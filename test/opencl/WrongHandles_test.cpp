@@ -1,5 +1,5 @@
-/// An object of another kind, wherever OpenCL's functions take one: the error
-/// that the standard names, never a crash.
+/// An object of another kind, or one that was released, wherever OpenCL's
+/// functions take one: the error that the standard names, never a crash.
 
 #include "TestDevice.h"
 
@@ -76,15 +76,36 @@ protected:
                {Kind::Program, Code()},
                {Kind::Kernel, K()},
                {Kind::Event, Marker()}};
+    Released = released();
   }
 
-  /// Calls each function with every object of a kind that it does not take.
+  /// The handles of an object of each kind that is no more.
+  std::vector<void *> released() const {
+    const cl::Context C(Device);
+    const cl::CommandQueue Q(C, Device);
+    const cl::Buffer B(C, CL_MEM_READ_WRITE, 64);
+    const cl::Image2D I(C, CL_MEM_READ_WRITE, {CL_RGBA, CL_UNSIGNED_INT8}, 4,
+                        4);
+    const cl::Sampler S(C, CL_FALSE, CL_ADDRESS_CLAMP, CL_FILTER_NEAREST);
+    cl::Program P(C, Source);
+    EXPECT_EQ(P.build(""), CL_SUCCESS);
+    const cl::Kernel Last(P, "k");
+    const cl::UserEvent E(C);
+    return {C(), Q(), B(), I(), S(), P(), Last(), E()};
+  }
+
+  /// Calls each function with every object of a kind that it does not take, and
+  /// with every object that was released.
   void refuses(const std::vector<Use> &Uses) const {
-    for (const Use &U : Uses)
+    for (const Use &U : Uses) {
       for (const auto &[Which, Object] : Objects)
         if (!U.Takes.contains(Which))
           EXPECT_EQ(U.Call(Object), U.Error)
               << U.Name << ", object " << static_cast<int>(Which);
+      for (std::size_t I = 0; I < Released.size(); ++I)
+        EXPECT_EQ(U.Call(Released[I]), U.Error)
+            << U.Name << ", released object " << I;
+    }
   }
 
   const TestDevice Open;
@@ -96,6 +117,7 @@ protected:
   cl::Sampler Reading;
   cl::Event Marker;
   std::map<Kind, void *> Objects;
+  std::vector<void *> Released;
 };
 
 #define VORION_USE(TAKES, ERROR, CALL)                                         \
@@ -122,10 +144,62 @@ TEST_F(WrongHandles, InArgumentsOfKernelsAreRefused) {
            VORION_USE({Kind::Buffer}, CL_INVALID_MEM_OBJECT, Set(1, O)),
            VORION_USE({Kind::Image}, CL_INVALID_MEM_OBJECT, Set(2, O)),
            VORION_USE({Kind::Sampler}, CL_INVALID_SAMPLER, Set(3, O))});
+  for (const std::uintptr_t Number :
+       {std::uintptr_t{1}, std::uintptr_t{4096},
+        reinterpret_cast<std::uintptr_t>(Data()) + 8})
+    EXPECT_EQ(Set(0, reinterpret_cast<void *>(Number)), CL_INVALID_MEM_OBJECT)
+        << "a number is no buffer";
   EXPECT_EQ(Set(0, Data()), CL_SUCCESS);
   EXPECT_EQ(Set(0, nullptr), CL_SUCCESS);
   EXPECT_EQ(Set(2, Picture()), CL_SUCCESS);
   EXPECT_EQ(Set(3, Reading()), CL_SUCCESS);
+}
+
+/// The kernel does not retain them. They ended the host.
+TEST_F(WrongHandles, ArgumentsReleasedBeforeTheStartAreRefused) {
+  const auto Fill = [&](cl_kernel Of) {
+    EXPECT_EQ(clSetKernelArg(Of, 0, sizeof(cl_mem), &Data()), CL_SUCCESS);
+    EXPECT_EQ(clSetKernelArg(Of, 1, sizeof(cl_mem), &Data()), CL_SUCCESS);
+    EXPECT_EQ(clSetKernelArg(Of, 2, sizeof(cl_mem), &Picture()), CL_SUCCESS);
+    EXPECT_EQ(clSetKernelArg(Of, 3, sizeof(cl_sampler), &Reading()),
+              CL_SUCCESS);
+    EXPECT_EQ(clSetKernelArg(Of, 4, 64, nullptr), CL_SUCCESS);
+  };
+  const auto Start = [&](cl_kernel Of) {
+    const size_t Items = 16;
+    return clEnqueueNDRangeKernel(Open.queue()(), Of, 1, nullptr, &Items,
+                                  nullptr, 0, nullptr, nullptr);
+  };
+  const auto Short = [&] {
+    return cl::Buffer(Open.context(), CL_MEM_READ_WRITE, 64);
+  };
+  Fill(K());
+  EXPECT_EQ(K.setArg(0, Short()), CL_SUCCESS);
+  EXPECT_EQ(Start(K()), CL_INVALID_KERNEL_ARGS) << "the buffer";
+  cl_int Status = CL_SUCCESS;
+  const cl_kernel Clone = clCloneKernel(K(), &Status);
+  EXPECT_EQ(Start(Clone), CL_INVALID_KERNEL_ARGS) << "of the kernel's clone";
+  clReleaseKernel(Clone);
+  // Other buffers take the memory of those that were released long ago.
+  for (int I = 0; I < 3000; ++I)
+    Short();
+  std::vector<cl::Buffer> Others;
+  for (int I = 0; I < 1500; ++I)
+    Others.push_back(Short());
+  EXPECT_EQ(Start(K()), CL_INVALID_KERNEL_ARGS) << "another buffer is none";
+  Fill(K());
+  EXPECT_EQ(K.setArg(2, cl::Image2D(Open.context(), CL_MEM_READ_WRITE,
+                                    {CL_RGBA, CL_UNSIGNED_INT8}, 4, 4)),
+            CL_SUCCESS);
+  EXPECT_EQ(Start(K()), CL_INVALID_KERNEL_ARGS) << "the image";
+  Fill(K());
+  EXPECT_EQ(K.setArg(3, cl::Sampler(Open.context(), CL_FALSE, CL_ADDRESS_CLAMP,
+                                    CL_FILTER_NEAREST)),
+            CL_SUCCESS);
+  EXPECT_EQ(Start(K()), CL_INVALID_KERNEL_ARGS) << "the sampler";
+  Fill(K());
+  EXPECT_EQ(Start(K()), CL_SUCCESS);
+  EXPECT_EQ(Open.queue().finish(), CL_SUCCESS);
 }
 
 /// The image that the kernel read was none of its type.

@@ -2,8 +2,8 @@
 /// its own: no crash, no hang, and no code that the standard does not list for
 /// the function. After each sequence a kernel must still run.
 ///
-/// Handles that were released are not used again, which the standard leaves
-/// undefined; everything else that a program may pass is tried.
+/// Handles that were released are used again, too. The standard leaves that
+/// undefined; here the code must be one that it lists for a wrong handle.
 
 #include "Watched.h"
 
@@ -17,6 +17,7 @@
 #include <initializer_list>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 using namespace vorion::test;
@@ -84,8 +85,12 @@ private:
   template <typename T> T any(std::initializer_list<T> Of) {
     return *(Of.begin() + below(static_cast<unsigned>(Of.size())));
   }
-  /// One of \p From, seldom (or where there is none) a null handle.
+  /// One of \p From, seldom (or where there is none) a null handle or one that
+  /// was released.
   template <typename T> T pick(const std::vector<T> &From) {
+    const std::vector<T> &Gone = std::get<std::vector<T>>(Released);
+    if (!Gone.empty() && chance(From.empty() ? 50 : 3))
+      return Gone[below(unsigned(Gone.size()))];
     return From.empty() || chance(3) ? T() : From[below(unsigned(From.size()))];
   }
   std::size_t size() {
@@ -715,6 +720,7 @@ private:
     const T Object = From[I];
     From.erase(From.begin() + std::ptrdiff_t(I));
     check(Function, Release(Object), {Code});
+    std::get<std::vector<T>>(Released).push_back(Object);
   }
   void release() {
     // While a user event is open, releasing other objects is undefined.
@@ -830,6 +836,10 @@ private:
   std::vector<cl_program> Programs;
   std::vector<cl_kernel> Kernels;
   std::vector<cl_event> Events, Unset;
+  std::tuple<std::vector<cl_context>, std::vector<cl_command_queue>,
+             std::vector<cl_mem>, std::vector<cl_program>,
+             std::vector<cl_kernel>, std::vector<cl_event>>
+      Released;
   std::vector<Mapping> Mappings;
   unsigned Pending = 0; ///< user events that are open
   std::string Wrong;
