@@ -157,6 +157,63 @@ kernel void counted_rounds(global uint *out, local uint *t, local uint *rounds, 
   out[id] = r;
 }
 
+// A group that returns as a whole has no such memory.
+#define LENGTH (get_group_id(0) < 2 ? out + 3 * n : (global uint *)8)
+kernel void length_in_memory(global uint *out, local uint *t, uint k) {
+  NAMES;
+  uint r = 0;
+  if (id >= k)
+    return;
+  uint length = *LENGTH & 3;
+  for (uint i = 0; i < length; i++) {
+    t[l] = r + l;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    r += t[l / 2];
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  out[id] = r;
+}
+
+kernel void read_in_rounds(global uint *out, local uint *t, uint k) {
+  NAMES;
+  uint r = 0, i = 0;
+  if (id >= k)
+    return;
+  float length;
+  do {
+    t[l] = r + l;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    r += t[l / 2];
+    length = (float)(*LENGTH & 3);
+    barrier(CLK_LOCAL_MEM_FENCE);
+  } while (++i < length);
+  out[id] = r;
+}
+
+// A work-item changes what the group's way depends on.
+kernel void counted_down(global uint *out, local uint *t, local uint *rounds, uint k) {
+  NAMES;
+  uint r = 0;
+  if (l == 0)
+    *rounds = 3;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (id >= k)
+    return;
+  while (1) {
+    uint left = *rounds;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (left == 0)
+      break;
+    if (l == 0)
+      *rounds = left - 1;
+    t[l] = r + l;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    r += t[l / 2];
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  out[id] = r;
+}
+
 kernel __attribute__((reqd_work_group_size(6, 4, 1)))
 void required(global uint *out, local uint *t, uint k) {
   NAMES;
@@ -317,9 +374,9 @@ void ownRounds(Group &G) {
   }
 }
 
-void countedRounds(Group &G) {
+void rounds(Group &G, U Count) {
   G.each([&](U L) { return G.First + L < G.K; });
-  for (U I = 0; I < G.Number + 2; ++I) {
+  for (U I = 0; I < Count; ++I) {
     G.each([&](U L) {
       G.T[L] = G.Own[L] + L;
       return true;
@@ -331,6 +388,9 @@ void countedRounds(Group &G) {
     });
   }
 }
+
+void countedRounds(Group &G) { rounds(G, G.Number + 2); }
+void threeRounds(Group &G) { rounds(G, 3); }
 
 void required(Group &G) {
   G.each([&](U L) {
@@ -354,7 +414,10 @@ const Kernel Kernels[] = {{"at_once", atOnce},
                           {"in_conditionals", inConditionals},
                           {"from_two_loops", fromTwoLoops},
                           {"own_rounds", ownRounds},
-                          {"counted_rounds", countedRounds}};
+                          {"counted_rounds", countedRounds},
+                          {"length_in_memory", threeRounds},
+                          {"read_in_rounds", threeRounds},
+                          {"counted_down", threeRounds}};
 
 /// Of the groups the first is whole, the second parts, and the others return.
 void compare(const TestDevice &Device, const cl::Program &Program,

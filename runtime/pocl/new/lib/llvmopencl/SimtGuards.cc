@@ -1,22 +1,21 @@
 #include "SimtGuards.h"
 
 #include "Barrier.h"
-#include "SimtReturns.h"
-#include "SimtWays.h"
+#include "SimtAgreement.h"
+#include "SimtGroupCode.h"
 
-#include <llvm/ADT/PostOrderIterator.h>
 #include <llvm/ADT/SetVector.h>
 #include <llvm/Analysis/LoopInfo.h>
-#include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/InstIterator.h>
-#include <llvm/IR/IntrinsicInst.h>
 #include <llvm/Transforms/Utils/BasicBlockUtils.h>
 #include <llvm/Transforms/Utils/Cloning.h>
 #include <llvm/Transforms/Utils/Local.h>
 #include <llvm/Transforms/Utils/PromoteMemToReg.h>
+
+#include <optional>
 
 using namespace llvm;
 
@@ -39,261 +38,6 @@ void separateReturnAndBarriers(Function &F) {
     ReplaceInstWithInst(Block->getTerminator(), BranchInst::Create(Return));
   for (Instruction *I : Barriers)
     SplitBlock(SplitBlock(I->getParent(), I), I->getNextNode());
-}
-
-/// A word that is set for the whole group.
-bool isGroupWord(const Value *Pointer) {
-  const StringRef Name = Pointer->getName();
-  return isa<GlobalVariable>(Pointer) &&
-         any_of(ArrayRef<StringRef>{"_group_id_", "_num_groups_",
-                                    "_local_size_", "_global_offset_",
-                                    "_work_dim"},
-                [&](StringRef Prefix) { return Name.starts_with(Prefix); });
-}
-
-/// Whether a value that is computed for a group's own sake may be computed by
-/// work-items that would not come to it: nothing else happens by that.
-bool mayBeComputedByAll(const Instruction &I) {
-  if (const auto *Load = dyn_cast<LoadInst>(&I))
-    return isGroupWord(Load->getPointerOperand());
-  if (isa<AllocaInst, FreezeInst, PHINode>(I) || I.isTerminator() ||
-      I.getType()->isVoidTy() || I.mayReadOrWriteMemory())
-    return false;
-  if (const auto *Call = dyn_cast<CallBase>(&I); Call && !isa<IntrinsicInst>(I))
-    return false;
-  // The sizes of a launch are not 0.
-  if (I.getOpcode() == Instruction::UDiv || I.getOpcode() == Instruction::URem)
-    if (const auto *By = dyn_cast<LoadInst>(I.getOperand(1)))
-      if (By->getPointerOperand()->getName().starts_with("_local_size_"))
-        return true;
-  return isSafeToSpeculativelyExecute(&I);
-}
-
-/// What a group does together when those that have returned count as if they
-/// had not.
-class GroupCode {
-public:
-  /// \p Coarse: branches that decide about no barrier do not count, although
-  /// the whole group may take them alike.
-  GroupCode(Function &F, bool Coarse) : F(F), Coarse(Coarse), Ways(F) {}
-
-  /// False if the group's way to a barrier depends on what not all may compute.
-  bool find();
-
-  /// The ways on which work-items return before others.
-  const std::set<Edge> &leaving() const { return Leaving; }
-
-  /// Whether the whole group passes the block.
-  bool passes(const BasicBlock *Block) const { return Passed.contains(Block); }
-
-  /// Whether all may compute the value, and know it.
-  bool isKnown(const Value *V) const {
-    return isa<Argument>(V) || (isa<Constant>(V) && !isa<UndefValue>(V)) ||
-           Known.contains(V);
-  }
-
-  /// Whether the group goes on from the block in one direction.
-  bool goesOnTogether(const BasicBlock *Block) const {
-    Value *Condition = decidingValue(*const_cast<BasicBlock *>(Block));
-    return passes(Block) &&
-           (Ways.behind(Block).size() < 2 ||
-            (Condition && isKnown(Condition) && counts(Block)));
-  }
-
-  /// Whether those that have returned know where the group goes on.
-  bool leadsAll(const BasicBlock *Block) const {
-    const Value *Condition = decidingValue(*const_cast<BasicBlock *>(Block));
-    return passes(Block) &&
-           (!Condition || (isKnown(Condition) && counts(Block)));
-  }
-
-  /// Where the group is together next, behind \p Block.
-  BasicBlock *nextOf(const BasicBlock *Block) const {
-    for (BasicBlock *Next : Ways.allBehind(Block))
-      if (passes(Next))
-        return Next;
-    return nullptr;
-  }
-
-  /// The blocks of the group that work-items that have returned come to.
-  BlockSet afterReturns() const;
-
-  ArrayRef<BasicBlock *> behind(const BasicBlock *Block) const {
-    return Ways.behind(Block);
-  }
-
-private:
-  bool counts(const BasicBlock *Branch) const {
-    return !Coarse || Deciding.contains(Branch);
-  }
-  bool dependsOn(const BasicBlock *Block, const BasicBlock *Branch) const;
-  void findDeciding();
-  void findWays();
-  bool isKnownChoice(const PHINode &Phi) const;
-  bool dropUnknown();
-  bool dropParted();
-  bool findLeaving(bool AlsoParted);
-  bool mayJoinBehind(const BasicBlock *From) const;
-
-  Function &F;
-  const bool Coarse;
-  WaysToReturn Ways;
-  std::set<Edge> Leaving;
-  /// The branches that decide whether the group comes to a barrier.
-  SmallPtrSet<const BasicBlock *, 16> Deciding;
-  SmallPtrSet<const BasicBlock *, 32> Passed;
-  SmallPtrSet<const Value *, 32> Known;
-};
-
-/// The choice is the same for all if the whole group comes by the same way.
-bool GroupCode::isKnownChoice(const PHINode &Phi) const {
-  return all_of(Phi.blocks(), [&](BasicBlock *Before) {
-    return goesOnTogether(Before) &&
-           !Leaving.count(
-               {Before, const_cast<BasicBlock *>(Phi.getParent())}) &&
-           isKnown(Phi.getIncomingValueForBlock(Before));
-  });
-}
-
-bool GroupCode::dropUnknown() {
-  bool Changed = false;
-  for (const Instruction &I : instructions(F)) {
-    if (!Known.contains(&I))
-      continue;
-    const auto *Phi = dyn_cast<PHINode>(&I);
-    const bool Is =
-        passes(I.getParent()) &&
-        (Phi ? isKnownChoice(*Phi)
-             : all_of(I.operands(), [&](const Use &U) { return isKnown(U); }));
-    if (!Is)
-      Changed |= Known.erase(&I);
-  }
-  return Changed;
-}
-
-/// Whether the branch decides if \p Block is passed (Ferrante, Ottenstein,
-/// Warren 1987).
-bool GroupCode::dependsOn(const BasicBlock *Block,
-                          const BasicBlock *Branch) const {
-  return Ways.behind(Branch).size() > 1 &&
-         (Block == Branch || !Ways.leadTo(Branch, Block)) &&
-         any_of(Ways.behind(Branch), [&](const BasicBlock *Next) {
-           return Ways.leadTo(Next, Block);
-         });
-}
-
-void GroupCode::findDeciding() {
-  Deciding.clear();
-  SmallVector<const BasicBlock *, 16> Pending;
-  for (const BasicBlock &Block : F)
-    if (Barrier::hasBarrier(&Block))
-      Pending.push_back(&Block);
-  while (!Pending.empty()) {
-    const BasicBlock *Block = Pending.pop_back_val();
-    for (const BasicBlock &Branch : F)
-      if (dependsOn(Block, &Branch) && Deciding.insert(&Branch).second)
-        Pending.push_back(&Branch);
-  }
-}
-
-/// What depends on a branch at which the group may part is not of the whole
-/// group.
-bool GroupCode::dropParted() {
-  bool Changed = false;
-  for (const BasicBlock &Branch : F)
-    if (!goesOnTogether(&Branch))
-      for (const BasicBlock &Block : F)
-        if (passes(&Block) && dependsOn(&Block, &Branch))
-          Changed |= Passed.erase(&Block);
-  return Changed;
-}
-
-void GroupCode::findWays() {
-  Ways = WaysToReturn(F, Leaving);
-  findDeciding();
-  Passed.clear();
-  Known.clear();
-  for (BasicBlock &Block : F) {
-    if (Ways.leadTo(&F.getEntryBlock(), &Block) || !Ways.behind(&Block).empty())
-      Passed.insert(&Block);
-    for (Instruction &I : Block)
-      if (isa<PHINode>(I) || mayBeComputedByAll(I))
-        Known.insert(&I);
-  }
-  while (dropUnknown() || dropParted()) {
-  }
-}
-
-/// Finds more ways on which work-items return, from branches at which they part
-/// or, \p AlsoParted, from the first to which only some of them come.
-bool GroupCode::findLeaving(bool AlsoParted) {
-  const BlockSet Parting = AlsoParted ? BlockSet() : branchesOfSome(F);
-  const ReversePostOrderTraversal<Function *> Order(&F);
-  bool Found = false;
-  for (BasicBlock *Branch : Order) {
-    const bool Parts =
-        AlsoParted ? !goesOnTogether(Branch) : Parting.contains(Branch);
-    if (!Parts || Ways.behind(Branch).size() < 2 ||
-        !Ways.mayReachBarrier(Branch))
-      continue;
-    for (BasicBlock *Next : Ways.behind(Branch))
-      if (!Ways.mayReachBarrier(Next))
-        Found |= Leaving.insert({Branch, Next}).second;
-    if (Found && AlsoParted)
-      return true;
-  }
-  return Found;
-}
-
-/// Whether those that join the group behind \p From have what it chooses there
-/// by the way on which it comes.
-bool GroupCode::mayJoinBehind(const BasicBlock *From) const {
-  const BasicBlock *Next = nextOf(From);
-  return Next && all_of(Next->phis(), [&](const PHINode &Phi) {
-           return !isKnown(&Phi) || Phi.getBasicBlockIndex(From) >= 0;
-         });
-}
-
-bool GroupCode::find() {
-  findLeaving(/*AlsoParted=*/false);
-  do
-    findWays();
-  while (findLeaving(/*AlsoParted=*/true));
-  for (BasicBlock &Block : F)
-    if ((Barrier::hasBarrier(&Block) ||
-         isa<ReturnInst>(Block.getTerminator())) &&
-        !passes(&Block))
-      return false;
-  for (const Edge &Way : Leaving)
-    if (!mayJoinBehind(Way.first))
-      return false;
-  return all_of(afterReturns(), [&](const BasicBlock *Block) {
-    if (!leadsAll(Block))
-      return mayJoinBehind(Block);
-    return all_of(behind(Block), [&](const BasicBlock *Next) {
-      return passes(Next) || mayJoinBehind(Next);
-    });
-  });
-}
-
-BlockSet GroupCode::afterReturns() const {
-  BlockSet Seen;
-  SmallVector<BasicBlock *, 16> Pending;
-  const auto Add = [&](BasicBlock *Block) {
-    if (Seen.insert(Block).second)
-      Pending.push_back(Block);
-  };
-  for (const Edge &Way : Leaving)
-    if (BasicBlock *Next = nextOf(Way.first))
-      Add(Next);
-  while (!Pending.empty())
-    for (BasicBlock *Next : behind(Pending.pop_back_val()))
-      Add(Next);
-  BlockSet Found;
-  for (BasicBlock *Block : Seen)
-    if (passes(Block))
-      Found.insert(Block);
-  return Found;
 }
 
 /// Leads all ways back of a loop through one block. Otherwise LLVM makes a loop
@@ -327,6 +71,7 @@ private:
   BasicBlock *copyTail(BasicBlock *First, BasicBlock *From, BasicBlock *End);
   void guard(BasicBlock *Block, BasicBlock *Next);
   void skip(BasicBlock *Block);
+  BasicBlock *tell(Instruction *I, BasicBlock *Return);
   void join(BasicBlock *From, BasicBlock *Like, BasicBlock *Next);
   Value *isGone(IRBuilder<> &Builder) const {
     return Builder.CreateLoad(Builder.getInt1Ty(), Gone, "is_gone");
@@ -336,6 +81,8 @@ private:
   const GroupCode &Code;
   AllocaInst *Gone = nullptr;
   std::vector<AllocaInst *> Slots;
+  /// Tells those that have returned what they must not compute.
+  std::optional<Agreement> Common;
 };
 
 /// Work-items that have returned pass by what computes values of their own. So
@@ -415,7 +162,8 @@ void Guards::lead(const Edge &Way, BasicBlock *Meeting) {
 void Guards::guard(BasicBlock *Block, BasicBlock *Next) {
   SmallVector<Instruction *, 16> Own;
   for (Instruction &I : *Block)
-    if (!Code.isKnown(&I) && !I.isTerminator() && !isa<PHINode>(I))
+    if ((!Code.isKnown(&I) || Code.isTold(&I)) && !I.isTerminator() &&
+        !isa<PHINode>(I))
       Own.push_back(&I);
   if (Own.empty() && !Next)
     return;
@@ -448,6 +196,37 @@ void Guards::skip(BasicBlock *Block) {
   }
 }
 
+/// Those that have not returned tell the others what \p I, which all come to,
+/// computes. If nobody is left, the group goes to \p Return. The block behind.
+BasicBlock *Guards::tell(Instruction *I, BasicBlock *Return) {
+  Type *Word = Type::getInt32Ty(F.getContext());
+  BasicBlock *Block = I->getParent();
+  BasicBlock *Rest = SplitBlock(Block, I->getNextNode());
+  IRBuilder<> Builder(&F.getEntryBlock().front());
+  AllocaInst *Own = Builder.CreateAlloca(Word, nullptr, "own");
+  Slots.push_back(Own);
+  Builder.SetInsertPoint(Block->getTerminator());
+  Builder.CreateStore(Builder.CreateZExt(I, Word), Own);
+  guard(Block, nullptr);
+
+  BasicBlock *Vote = Rest->getSinglePredecessor(), *Told = create("told");
+  Vote->getTerminator()->eraseFromParent();
+  Builder.SetInsertPoint(Vote);
+  Value *Said = Builder.CreateLoad(Word, Own);
+  Value *Goes = Builder.CreateNot(isGone(Builder));
+  BranchInst::Create(Told, Common->vote(Vote, Said, Goes, I->getDebugLoc()));
+
+  Builder.SetInsertPoint(Told);
+  Value *Result = Builder.CreateZExtOrTrunc(
+      Common->result(Builder, Constant::getNullValue(Word)), I->getType());
+  Builder.CreateCondBr(Common->hasResult(Builder), Rest, Return);
+  Barrier::Create(&Told->front());
+  I->replaceUsesWithIf(Result, [I](const Use &U) {
+    return cast<Instruction>(U.getUser())->getParent() != I->getParent();
+  });
+  return Rest;
+}
+
 void Guards::add() {
   keepInSlots();
   IRBuilder<> Builder(&F.getEntryBlock().front());
@@ -457,20 +236,34 @@ void Guards::add() {
   struct Place {
     BasicBlock *Block;
     BasicBlock *Next; ///< where the group may part behind it
+    SmallVector<Instruction *, 1> Told;
   };
   std::vector<Place> Places;
+  BasicBlock *Return = nullptr;
   const BlockSet After = Code.afterReturns();
-  for (BasicBlock &Block : F)
-    if (After.contains(&Block))
-      Places.push_back(
-          {&Block, Code.leadsAll(&Block) ? nullptr : Code.nextOf(&Block)});
+  for (BasicBlock &Block : F) {
+    if (isa<ReturnInst>(Block.getTerminator()))
+      Return = &Block;
+    if (!After.contains(&Block))
+      continue;
+    Places.push_back(
+        {&Block, Code.leadsAll(&Block) ? nullptr : Code.nextOf(&Block), {}});
+    for (Instruction &I : Block)
+      if (Code.isTold(&I))
+        Places.back().Told.push_back(&I);
+  }
+  if (any_of(Places, [](const Place &P) { return !P.Told.empty(); }))
+    Common.emplace(Builder);
   for (const Edge &Way : Code.leaving())
     lead(Way, Code.nextOf(Way.first));
   for (const Place &P : Places) {
     if (!P.Next)
       skip(P.Block);
-    if (!Barrier::hasBarrier(P.Block))
-      guard(P.Block, P.Next);
+    BasicBlock *Block = P.Block;
+    for (Instruction *I : P.Told)
+      Block = tell(I, Return);
+    if (!Barrier::hasBarrier(Block))
+      guard(Block, P.Next);
   }
   EliminateUnreachableBlocks(F);
   DominatorTree Dominators(F);
@@ -487,13 +280,14 @@ bool guardReturned(Function &F) {
         return isa<AllocaInst>(I) && I.getParent() != &F.getEntryBlock();
       }))
     return false;
-  for (const bool Coarse : {true, false}) {
-    GroupCode Code(F, Coarse);
-    if (!Code.find())
-      continue;
-    Guards(F, Code).add();
-    return true;
-  }
+  for (const bool Tells : {false, true})
+    for (const bool Coarse : {true, false}) {
+      GroupCode Code(F, Coarse, Tells);
+      if (!Code.find())
+        continue;
+      Guards(F, Code).add();
+      return true;
+    }
   return false;
 }
 

@@ -21,9 +21,10 @@ namespace pocl {
 ///     }
 ///
 /// What the whole group computes alike and without memory, such as \c s, is
-/// computed by those that have returned, too: so they go as many rounds. False,
-/// and nothing of importance changed, if the way to a barrier depends on
-/// anything else (then see SimtRounds.h).
+/// computed by those that have returned, too: so they go as many rounds. What
+/// all read from memory, such as a length, the others tell them
+/// (SimtAgreement.h). False, and nothing of importance changed, if the way to a
+/// barrier depends on anything else (then see SimtRounds.h).
 bool guardReturned(llvm::Function &F);
 
 } // namespace pocl

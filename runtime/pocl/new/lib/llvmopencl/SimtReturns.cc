@@ -104,7 +104,7 @@ bool partsForGood(BasicBlock &Branch, const WaysToReturn &Ways) {
 
 } // namespace
 
-BlockSet branchesOfSome(Function &F) {
+Differences differencesIn(Function &F) {
   FunctionAnalysisManager Analyses;
   Analyses.registerPass([] { return PassInstrumentationAnalysis(); });
   Analyses.registerPass([] { return DominatorTreeAnalysis(); });
@@ -116,16 +116,20 @@ BlockSet branchesOfSome(Function &F) {
     });
   });
   UniformityInfo Uniformity = UniformityInfoAnalysis().run(F, Analyses);
-  BlockSet Found;
-  for (BasicBlock &Block : F)
+  Differences Found;
+  for (BasicBlock &Block : F) {
     if (Uniformity.hasDivergentTerminator(Block))
-      Found.insert(&Block);
+      Found.Branches.insert(&Block);
+    for (const Instruction &I : Block)
+      if (Uniformity.isDivergent(&I))
+        Found.Values.insert(&I);
+  }
   return Found;
 }
 
 bool returnsBeforeBarrier(Function &F) {
   const WaysToReturn Ways(F);
-  return any_of(branchesOfSome(F),
+  return any_of(differencesIn(F).Branches,
                 [&](BasicBlock *Block) { return partsForGood(*Block, Ways); });
 }
 

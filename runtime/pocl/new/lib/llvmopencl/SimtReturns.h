@@ -5,12 +5,18 @@
 
 #include "SimtBlocks.h"
 
+#include <llvm/ADT/SmallPtrSet.h>
+
 namespace pocl {
 
-/// The blocks at whose end work-items may part. They are taken to agree in what
-/// they compute from arguments, group ids and memory that all of them read at
-/// one address, and in nothing else.
-BlockSet branchesOfSome(llvm::Function &F);
+/// Where work-items may differ. They are taken to agree in what they compute
+/// from arguments, group ids and memory that all of them read at one address,
+/// and in nothing else.
+struct Differences {
+  BlockSet Branches; ///< the blocks at whose end they may part
+  llvm::SmallPtrSet<const llvm::Value *, 32> Values;
+};
+Differences differencesIn(llvm::Function &F);
 
 /// Whether a work-item may return, or pass the last barrier's place, while
 /// others of its group go on to a barrier:

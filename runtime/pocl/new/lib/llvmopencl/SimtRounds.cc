@@ -3,6 +3,7 @@
 #include "SimtRounds.h"
 
 #include "Barrier.h"
+#include "SimtAgreement.h"
 #include "SimtWorkitems.h"
 
 #include <llvm/ADT/MapVector.h>
@@ -14,6 +15,8 @@
 #include <llvm/Transforms/Utils/Cloning.h>
 #include <llvm/Transforms/Utils/Local.h>
 #include <llvm/Transforms/Utils/PromoteMemToReg.h>
+
+#include <optional>
 
 using namespace llvm;
 
@@ -41,8 +44,6 @@ private:
   BasicBlock *copyFrom(BasicBlock *Start, BasicBlock *End);
   BasicBlock *leaveTo(BasicBlock *At, BasicBlock *End);
   void addRound(SwitchInst &Choice, BasicBlock *From);
-  BasicBlock *agree(BasicBlock *End, const DebugLoc &At);
-  Value *groupPlace(IRBuilder<> &Builder) const;
   /// The place of a work-item that has returned; the start is 0, and barriers
   /// have the numbers between.
   Constant *ended() const {
@@ -55,8 +56,8 @@ private:
   BasicBlock *Entry;
   IntegerType *Number;
   AllocaInst *Place = nullptr;
-  /// Where those of the group are that have not returned.
-  AllocaInst *Common = nullptr;
+  /// Where those of the group are that have not returned; none if all go on.
+  std::optional<Agreement> Common;
   /// Values that live in more than one block, until the rounds stand.
   std::vector<AllocaInst *> Slots;
   /// The block that is a barrier, and the one that follows it.
@@ -166,42 +167,6 @@ DebugLoc placeOf(const BasicBlock &Block) {
   return Found == Block.end() ? DebugLoc() : Found->getDebugLoc();
 }
 
-/// Adds to \p End, the end of a round, that the work-items that have not
-/// returned tell where they are. They trap if they are not at one place.
-BasicBlock *Rounds::agree(BasicBlock *End, const DebugLoc &At) {
-  IRBuilder<> Builder(End);
-  Value *Own = Builder.CreateLoad(Number, Place);
-  Value *Goes = Builder.CreateICmpNE(Own, ended());
-  Value *First = Builder.CreateBinaryIntrinsic(
-      Intrinsic::cttz, createBallot(Builder, Goes), Builder.getFalse());
-  // Without one that goes on, there is no such lane, and the place is a lane's
-  // own, which is the end.
-  Value *OfPass = createFromLane(Builder, Own, First);
-  Value *Before = Builder.CreateSelect(createIsFirstPass(Builder), ended(),
-                                       Builder.CreateLoad(Number, Common));
-  Builder.CreateStore(
-      Builder.CreateBinaryIntrinsic(Intrinsic::umin, Before, OfPass), Common);
-  Value *Differs =
-      Builder.CreateOr(Builder.CreateICmpNE(Own, OfPass),
-                       Builder.CreateAnd(Builder.CreateICmpNE(Before, ended()),
-                                         Builder.CreateICmpNE(Before, OfPass)));
-  Value *Votes = createBallot(Builder, Builder.CreateAnd(Goes, Differs));
-  auto *Other = create("other_way"), *Agreed = create("round_agreed");
-  Builder.CreateCondBr(Builder.CreateICmpNE(Votes, Builder.getInt32(0)), Other,
-                       Agreed);
-  createTrap(*Other, Agreed, At);
-  return Agreed;
-}
-
-/// The place of which the group goes on. Lanes without a work-item in the last
-/// pass do not know what came of it, but the first lane does.
-Value *Rounds::groupPlace(IRBuilder<> &Builder) const {
-  if (!OfSome)
-    return Builder.CreateLoad(Number, Place);
-  return createFromLane(Builder, Builder.CreateLoad(Number, Common),
-                        ConstantInt::get(Number, 0));
-}
-
 /// Adds the round that begins with \p From as the next choice.
 void Rounds::addRound(SwitchInst &Choice, BasicBlock *From) {
   ConstantInt *Own = ConstantInt::get(Number, Choice.getNumCases());
@@ -219,7 +184,10 @@ void Rounds::addRound(SwitchInst &Choice, BasicBlock *From) {
         Builder.CreateICmpEQ(Builder.CreateLoad(Number, Place), Own), Copy,
         End);
     ToCopy->eraseFromParent();
-    Last = agree(End, placeOf(*From));
+    Builder.SetInsertPoint(End);
+    Value *Said = Builder.CreateLoad(Number, Place);
+    Last = Common->vote(End, Said, Builder.CreateICmpNE(Said, ended()),
+                        placeOf(*From));
   }
   Barrier::Create(BranchInst::Create(Choice.getParent(), Last));
 }
@@ -234,16 +202,16 @@ void Rounds::run() {
   Place = Builder.CreateAlloca(Number, nullptr, "place");
   Slots.push_back(Place);
   Builder.CreateStore(ConstantInt::get(Number, 0), Place);
-  if (OfSome) {
-    Common = createLaneVariable(Builder, Number, "common_place");
-    Builder.CreateStore(ConstantInt::get(Number, 0), Common);
-  }
+  if (OfSome)
+    Common.emplace(Builder).begin(Builder, ConstantInt::get(Number, 0));
   Entry->getTerminator()->setSuccessor(0, Head);
   ReturnInst::Create(F.getContext(), Done);
 
   Builder.SetInsertPoint(Head);
-  SwitchInst *Choice = Builder.CreateSwitch(
-      createUniform(Builder, groupPlace(Builder)), Done, Barriers.size() + 1);
+  Value *Next = Common
+                    ? Common->result(Builder, ended())
+                    : createUniform(Builder, Builder.CreateLoad(Number, Place));
+  SwitchInst *Choice = Builder.CreateSwitch(Next, Done, Barriers.size() + 1);
   addRound(*Choice, Start);
   for (const auto &[At, Behind] : Barriers)
     addRound(*Choice, Behind);

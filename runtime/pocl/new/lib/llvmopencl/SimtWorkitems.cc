@@ -174,6 +174,24 @@ Value *createFromLane(IRBuilder<> &Builder, Value *Word, Value *Lane) {
                             {Word, Control});
 }
 
+/// Marks a value as createOfGroup() says.
+static constexpr const char *GroupValue = "simt.group";
+
+/// The first lane has a work-item in every pass. Those that have none in the
+/// last pass do not know what came of it.
+Value *createOfGroup(IRBuilder<> &Builder, Value *Word) {
+  Value *Of = createUniform(Builder,
+                            createFromLane(Builder, Word, Builder.getInt32(0)));
+  cast<Instruction>(Of)->setMetadata(GroupValue,
+                                     MDNode::get(Builder.getContext(), {}));
+  return Of;
+}
+
+bool isOfGroup(const Value &V) {
+  const auto *I = dyn_cast<Instruction>(&V);
+  return I && I->hasMetadata(GroupValue);
+}
+
 /// Stands for what only the loops over work-items know.
 static constexpr const char *IsFirstPass = "_simt_is_first_pass";
 

@@ -66,6 +66,10 @@ llvm::Value *createBallot(llvm::IRBuilder<> &Builder, llvm::Value *Condition);
 llvm::Value *createFromLane(llvm::IRBuilder<> &Builder, llvm::Value *Word,
                             llvm::Value *Lane);
 
+/// \p Word of the group's first work-item, which is the same for all of them.
+llvm::Value *createOfGroup(llvm::IRBuilder<> &Builder, llvm::Value *Word);
+bool isOfGroup(const llvm::Value &V);
+
 /// Whether the work-item is one of the group's first pass.
 llvm::Value *createIsFirstPass(llvm::IRBuilder<> &Builder);
 
