@@ -191,11 +191,26 @@ bool GroupCode::tellMore() {
   return false;
 }
 
+/// Keeps the first place where the group's way to a barrier is not known.
+void GroupCode::findObstacle() {
+  for (const BasicBlock &Branch : F)
+    if (!Obstacle && Deciding.contains(&Branch) && !goesOnTogether(&Branch))
+      Obstacle = Branch.getTerminator()->getDebugLoc();
+  // A loop that each leaves on its own does not end for the group.
+  for (BasicBlock &Branch : reverse(F))
+    if (!Obstacle && Differ.Branches.contains(&Branch) &&
+        Ways.behind(&Branch).empty())
+      Obstacle = Branch.getTerminator()->getDebugLoc();
+}
+
 bool GroupCode::find() {
   findLeaving(/*AlsoParted=*/false);
-  do
-    findWays();
-  while (tellMore() || findLeaving(/*AlsoParted=*/true));
+  do {
+    do
+      findWays();
+    while (tellMore());
+    findObstacle();
+  } while (findLeaving(/*AlsoParted=*/true));
   for (BasicBlock &Block : F)
     if ((Barrier::hasBarrier(&Block) ||
          isa<ReturnInst>(Block.getTerminator())) &&

@@ -27,6 +27,9 @@ public:
   /// False if the group's way to a barrier depends on what not all may compute.
   bool find();
 
+  /// Then, the first place where it does; none if that is not known.
+  const llvm::DebugLoc &obstacle() const { return Obstacle; }
+
   /// The ways on which work-items return before others.
   const std::set<Edge> &leaving() const { return Leaving; }
 
@@ -100,6 +103,7 @@ private:
   bool mayBeTold(const llvm::Instruction &I) const;
   bool tell(llvm::Value *V);
   bool tellMore();
+  void findObstacle();
 
   llvm::Function &F;
   const bool Coarse, Tells;
@@ -111,6 +115,7 @@ private:
   llvm::SmallPtrSet<const llvm::BasicBlock *, 32> Passed;
   llvm::SmallPtrSet<const llvm::Value *, 32> Known;
   llvm::SmallPtrSet<const llvm::Instruction *, 4> Told;
+  llvm::DebugLoc Obstacle;
   /// The branches of which that cannot be.
   llvm::SmallPtrSet<const llvm::BasicBlock *, 4> Untold;
   /// The values that tell() has come to.

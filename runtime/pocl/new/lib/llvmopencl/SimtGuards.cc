@@ -273,7 +273,7 @@ void Guards::add() {
 
 } // namespace
 
-bool guardReturned(Function &F) {
+bool guardReturned(Function &F, DebugLoc &Obstacle) {
   separateReturnAndBarriers(F);
   // Nobody goes around a variable that others know.
   if (any_of(instructions(F), [&](const Instruction &I) {
@@ -283,8 +283,10 @@ bool guardReturned(Function &F) {
   for (const bool Tells : {false, true})
     for (const bool Coarse : {true, false}) {
       GroupCode Code(F, Coarse, Tells);
-      if (!Code.find())
+      if (!Code.find()) {
+        Obstacle = Code.obstacle();
         continue;
+      }
       Guards(F, Code).add();
       return true;
     }

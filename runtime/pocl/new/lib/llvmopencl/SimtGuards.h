@@ -4,6 +4,7 @@
 #define POCL_SIMT_GUARDS_H
 
 namespace llvm {
+class DebugLoc;
 class Function;
 } // namespace llvm
 
@@ -24,8 +25,9 @@ namespace pocl {
 /// computed by those that have returned, too: so they go as many rounds. What
 /// all read from memory, such as a length, the others tell them
 /// (SimtAgreement.h). False, and nothing of importance changed, if the way to a
-/// barrier depends on anything else (then see SimtRounds.h).
-bool guardReturned(llvm::Function &F);
+/// barrier depends on anything else (then see SimtRounds.h). \p Obstacle: then,
+/// where it does, if that is known.
+bool guardReturned(llvm::Function &F, llvm::DebugLoc &Obstacle);
 
 } // namespace pocl
 

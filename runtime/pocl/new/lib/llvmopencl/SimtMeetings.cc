@@ -15,6 +15,7 @@
 #include <llvm/ADT/PostOrderIterator.h>
 #include <llvm/ADT/SetVector.h>
 #include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/OptimizationRemarkEmitter.h>
 #include <llvm/Analysis/PostDominators.h>
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
@@ -280,6 +281,22 @@ bool separateHeads(Function &F) {
                 [](const Loop *L) { return separateHeads(*L); });
 }
 
+/// Tells whoever listens (docs/backend.md, Remarks) why the kernel is slow.
+void tellOfRounds(Function &F, const DebugLoc &Return,
+                  const DebugLoc &Obstacle) {
+  OptimizationRemarkEmitter(&F).emit([&] {
+    OptimizationRemarkMissed Remark("vorion-returns", "Rounds", Return,
+                                    &F.getEntryBlock());
+    Remark << "work-items may return here before a barrier to which others "
+              "come";
+    if (Obstacle)
+      Remark << ", and those may not agree on their way to it in line "
+             << std::to_string(Obstacle.getLine());
+    return Remark << ": the kernel runs in rounds from barrier to barrier, "
+                     "which takes more time";
+  });
+}
+
 PreservedAnalyses changedAll() {
   PreservedAnalyses Kept = PreservedAnalyses::none();
   Kept.preserve<WorkitemHandlerChooser>();
@@ -292,8 +309,11 @@ PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
   if (!isKernelToProcess(F) || !hasWorkgroupBarriers(F))
     return PreservedAnalyses::all();
   bool Changed = false;
-  if (returnsBeforeBarrier(F)) {
-    if (!guardReturned(F)) {
+  if (BasicBlock *Return = returnBeforeBarrier(F)) {
+    const DebugLoc At = Return->getTerminator()->getDebugLoc();
+    DebugLoc Obstacle;
+    if (!guardReturned(F, Obstacle)) {
+      tellOfRounds(F, At, Obstacle);
       runInRoundsOfSome(F);
       return changedAll();
     }

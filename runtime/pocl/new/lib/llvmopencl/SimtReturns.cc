@@ -127,10 +127,13 @@ Differences differencesIn(Function &F) {
   return Found;
 }
 
-bool returnsBeforeBarrier(Function &F) {
+BasicBlock *returnBeforeBarrier(Function &F) {
   const WaysToReturn Ways(F);
-  return any_of(differencesIn(F).Branches,
-                [&](BasicBlock *Block) { return partsForGood(*Block, Ways); });
+  const BlockSet Branches = differencesIn(F).Branches;
+  const auto Found = find_if(F, [&](BasicBlock &Block) {
+    return Branches.contains(&Block) && partsForGood(Block, Ways);
+  });
+  return Found == F.end() ? nullptr : &*Found;
 }
 
 } // namespace pocl

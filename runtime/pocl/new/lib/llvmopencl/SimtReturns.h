@@ -18,12 +18,12 @@ struct Differences {
 };
 Differences differencesIn(llvm::Function &F);
 
-/// Whether a work-item may return, or pass the last barrier's place, while
-/// others of its group go on to a barrier:
+/// Where a work-item may return, or pass the last barrier's place, while others
+/// of its group go on to a barrier; null if nowhere:
 ///
 ///     if (get_global_id(0) >= n) return;
 ///     barrier();
-bool returnsBeforeBarrier(llvm::Function &F);
+llvm::BasicBlock *returnBeforeBarrier(llvm::Function &F);
 
 } // namespace pocl
 
