@@ -1,6 +1,6 @@
 /* Fields of bits, and bits in reverse: cl_khr_extended_bit_ops. A field that is
    not all within the number is undefined. */
-#include "half/vectors.h"
+#include "sizes.h"
 
 /* FIELDS(number of elements, signed type, unsigned type, bits) */
 #define FIELDS(N, TYPE, UTYPE, BITS)                                           \

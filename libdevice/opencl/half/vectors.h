@@ -5,16 +5,7 @@
 #ifndef VORION_HALF_VECTORS_H
 #define VORION_HALF_VECTORS_H
 
-/* M(number of elements, ...) */
-#define FOR_VECTORS(M, ...)                                                    \
-  M(2, __VA_ARGS__)                                                            \
-  M(3, __VA_ARGS__)                                                            \
-  M(4, __VA_ARGS__)                                                            \
-  M(8, __VA_ARGS__)                                                            \
-  M(16, __VA_ARGS__)
-
-/* The number is empty for a scalar. */
-#define FOR_SIZES(M, ...) M(, __VA_ARGS__) FOR_VECTORS(M, __VA_ARGS__)
+#include "sizes.h"
 
 /* Conversions of single values and vectors that round to nearest. */
 #define CASTS(TO, FROM)                                                        \
