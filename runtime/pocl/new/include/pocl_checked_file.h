@@ -36,8 +36,7 @@ pocl_checked_file_status pocl_read_checked_file(const char *path,
  * errno. */
 int pocl_write_all(int fd, const char *content, uint64_t size);
 
-/* The checksum of bytes: FNV-1a of 64 bits, which any change of a single byte
- * changes. */
+/* The checksum of bytes, which any change of a single byte changes. */
 uint64_t pocl_checksum(const void *bytes, uint64_t size);
 
 /* Keeps errno as the reason why something cannot be done with the path, unless

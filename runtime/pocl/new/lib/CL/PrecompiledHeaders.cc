@@ -90,6 +90,12 @@ withoutTheProgram(const CompilerInvocation &Program, StringRef UserOptions) {
   return Headers;
 }
 
+std::string hashOf(StringRef Text) {
+  const XXH128_hash_t Hash = xxh3_128bits(arrayRefFromStringRef(Text));
+  return utohexstr(Hash.high64, true, 16) + utohexstr(Hash.low64, true, 16);
+}
+
+/// Each program asks for it, and the headers have a megabyte.
 std::string keyOf(const CompilerInvocation &Parse,
                   const std::vector<std::string> &Headers) {
   std::string All = getClangFullVersion();
@@ -98,16 +104,13 @@ std::string keyOf(const CompilerInvocation &Parse,
   for (const std::string &Header : Headers) {
     All += Header + '\0';
     if (const auto Content = MemoryBuffer::getFile(Header))
-      All += (*Content)->getBuffer();
+      All += hashOf((*Content)->getBuffer());
   }
-  const XXH128_hash_t Hash = xxh3_128bits(
-      ArrayRef(reinterpret_cast<const uint8_t *>(All.data()), All.size()));
-  return utohexstr(Hash.high64, true, 16) + utohexstr(Hash.low64, true, 16);
+  return hashOf(All);
 }
 
-std::shared_ptr<const std::string>
-parse(std::shared_ptr<CompilerInvocation> Parse,
-      const std::vector<std::string> &Headers) {
+HeadersState parse(std::shared_ptr<CompilerInvocation> Parse,
+                   const std::vector<std::string> &Headers) {
   std::string Text;
   for (const std::string &Header : Headers)
     Text += "#include \"" + Header + "\"\n";
@@ -121,34 +124,32 @@ parse(std::shared_ptr<CompilerInvocation> Parse,
   Instance.setVerboseOutputStream(nulls());
   PrecompileToMemory Precompile;
   if (!Instance.ExecuteAction(Precompile) || !Precompile.State->IsComplete)
-    return nullptr;
-  return std::make_shared<const std::string>(Precompile.State->Data.begin(),
-                                             Precompile.State->Data.end());
+    return {};
+  const auto &Data = Precompile.State->Data;
+  return {{Precompile.State, Data.data()}, Data.size()};
 }
 
-/// What another process kept; null if none did.
-std::shared_ptr<const std::string> read(const char *Path) {
+/// What another process kept, if one did.
+HeadersState read(const char *Path) {
   char *Bytes = nullptr;
   uint64_t Size = 0;
   if (pocl_read_checked_file(Path, &Bytes, &Size) != POCL_CHECKED_FILE_OK)
-    return nullptr;
-  auto State = std::make_shared<const std::string>(Bytes, Size);
-  std::free(Bytes);
-  return State;
+    return {};
+  return {{Bytes, std::free}, Size};
 }
 
-std::shared_ptr<const std::string>
-readOrParse(const std::string &Key, std::shared_ptr<CompilerInvocation> Parse,
-            const std::vector<std::string> &Headers) {
+HeadersState readOrParse(const std::string &Key,
+                         std::shared_ptr<CompilerInvocation> Parse,
+                         const std::vector<std::string> &Headers) {
   const bool HadProblem = pocl_file_problem() != nullptr;
   char Path[POCL_MAX_PATHNAME_LENGTH];
   const bool HasPlace =
       pocl_cache_headers_path(Path, sizeof(Path), Key.c_str()) == 0;
-  std::shared_ptr<const std::string> State = HasPlace ? read(Path) : nullptr;
-  if (!State) {
+  HeadersState State = HasPlace ? read(Path) : HeadersState();
+  if (!State.Bytes) {
     State = parse(std::move(Parse), Headers);
-    if (State && HasPlace)
-      pocl_write_checked_file(Path, State->data(), State->size());
+    if (State.Bytes && HasPlace)
+      pocl_write_checked_file(Path, State.Bytes.get(), State.Size);
   }
   // That a state cannot be kept is no problem of the program.
   if (!HadProblem)
@@ -157,11 +158,11 @@ readOrParse(const std::string &Key, std::shared_ptr<CompilerInvocation> Parse,
 }
 
 /// The state that this process has of the headers.
-std::shared_ptr<const std::string>
-stateOf(const std::string &Key, std::shared_ptr<CompilerInvocation> Parse,
-        const std::vector<std::string> &Headers) {
+HeadersState stateOf(const std::string &Key,
+                     std::shared_ptr<CompilerInvocation> Parse,
+                     const std::vector<std::string> &Headers) {
   static std::mutex Lock;
-  static std::map<std::string, std::shared_ptr<const std::string>> States;
+  static std::map<std::string, HeadersState> States;
   const std::lock_guard<std::mutex> Guard(Lock);
   if (const auto Found = States.find(Key); Found != States.end())
     return Found->second;
@@ -185,15 +186,16 @@ PrecompiledHeaders::PrecompiledHeaders(const CompilerInvocation &Program,
 
 void PrecompiledHeaders::addTo(CompilerInstance &Instance) const {
   PreprocessorOptions &Options = Instance.getPreprocessorOpts();
-  if (!State) {
+  if (!State.Bytes) {
     Options.Includes.insert(Options.Includes.end(), Headers.begin(),
                             Headers.end());
     return;
   }
   auto Memory = makeIntrusiveRefCnt<vfs::InMemoryFileSystem>();
   Memory->addFile(StatePath, /*ModificationTime=*/0,
-                  MemoryBuffer::getMemBuffer(*State, StatePath,
-                                             /*RequiresNullTerminator=*/false));
+                  MemoryBuffer::getMemBuffer(
+                      StringRef(State.Bytes.get(), State.Size), StatePath,
+                      /*RequiresNullTerminator=*/false));
   auto Files =
       makeIntrusiveRefCnt<vfs::OverlayFileSystem>(vfs::getRealFileSystem());
   Files->pushOverlay(Memory);

@@ -17,6 +17,12 @@
 
 namespace pocl {
 
+/// Bytes, or none.
+struct HeadersState {
+  std::shared_ptr<const char> Bytes;
+  size_t Size = 0;
+};
+
 /// What clang knows after a row of headers. It is kept in memory for the
 /// programs of this process, and in the kernel cache for others.
 class PrecompiledHeaders {
@@ -41,7 +47,7 @@ public:
 private:
   std::vector<std::string> Headers;
   std::string Key;
-  std::shared_ptr<const std::string> State; ///< null if they cannot be parsed
+  HeadersState State; ///< none if they cannot be parsed
 };
 
 } // namespace pocl
