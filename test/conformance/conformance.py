@@ -81,16 +81,26 @@ def platform_files():
                   if os.path.isfile(path))
 
 
-def end_session(leader):
-    """Ends all processes of a session. Its process group is not enough: CMake gives what it runs groups of their own."""
+def alive(leader):
+    """The processes of a session."""
     for stat in glob.glob("/proc/[0-9]*/stat"):
         try:
             with open(stat, encoding="utf-8", errors="replace") as file:
-                session = file.read().rpartition(")")[2].split()[3] # behind the name: state, parent, group, session
-            if int(session) == leader:
-                os.kill(int(stat.split("/")[2]), signal.SIGKILL)
+                state, _, _, session = file.read().rpartition(")")[2].split()[:4] # behind the name; then parent, group
         except (FileNotFoundError, ProcessLookupError):
-            pass
+            continue
+        if int(session) == leader and state not in "ZX":
+            yield int(stat.split("/")[2])
+
+
+def end_session(leader):
+    """Ends all processes of a session. Its process group is not enough: CMake gives what it runs groups of their own.
+    Nor is it enough to look once: one that is ended may have begun another meanwhile, which would keep the pipe open."""
+    while processes := list(alive(leader)):
+        for process in processes:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, signal.SIGKILL)
+        time.sleep(0.01)
 
 
 class Running:
