@@ -21,7 +21,7 @@ import xml.etree.ElementTree as ET
 def reason(case, skipped):
     text = (skipped.get("message") or skipped.text or "").strip() if skipped is not None else "not run"
     if text == "Unable to find executable":  # CTest's words
-        return "programs that were not built in the time that was left"
+        return "programs that are not built"
     output = case.findtext("system-out") or ""
     # GoogleTest prints the text of GTEST_SKIP() on the line after the place.
     found = re.search(r"Skipped\n(.+)", output)

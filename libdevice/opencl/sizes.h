@@ -1,4 +1,4 @@
-/* The same for vectors of every length. */
+/* Macros that use another macro once for every length of a vector. */
 #ifndef VORION_SIZES_H
 #define VORION_SIZES_H
 

@@ -95,7 +95,8 @@ std::string hashOf(StringRef Text) {
   return utohexstr(Hash.high64, true, 16) + utohexstr(Hash.low64, true, 16);
 }
 
-/// Each program asks for it, and the headers have a megabyte.
+/// Headers are hashed where they are mapped: they have a megabyte, and each
+/// program asks for the key.
 std::string keyOf(const CompilerInvocation &Parse,
                   const std::vector<std::string> &Headers) {
   std::string All = getClangFullVersion();

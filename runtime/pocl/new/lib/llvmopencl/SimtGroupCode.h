@@ -21,8 +21,10 @@ public:
   /// \p Coarse: branches that decide about no barrier do not count, although
   /// the whole group may take them alike. \p Tells: those that have not
   /// returned may tell the others values on which the group's way depends.
-  GroupCode(llvm::Function &F, bool Coarse, bool Tells)
-      : F(F), Coarse(Coarse), Tells(Tells), Differ(differencesIn(F)), Ways(F) {}
+  /// \p Differ is that of \p F, and outlives this.
+  GroupCode(llvm::Function &F, const Differences &Differ, bool Coarse,
+            bool Tells)
+      : F(F), Coarse(Coarse), Tells(Tells), Differ(Differ), Ways(F) {}
 
   /// False if the group's way to a barrier depends on what not all may compute.
   bool find();
@@ -107,7 +109,7 @@ private:
 
   llvm::Function &F;
   const bool Coarse, Tells;
-  const Differences Differ;
+  const Differences &Differ;
   WaysToReturn Ways;
   std::set<Edge> Leaving;
   /// The branches that decide whether the group comes to a barrier.
@@ -115,11 +117,11 @@ private:
   llvm::SmallPtrSet<const llvm::BasicBlock *, 32> Passed;
   llvm::SmallPtrSet<const llvm::Value *, 32> Known;
   llvm::SmallPtrSet<const llvm::Instruction *, 4> Told;
-  llvm::DebugLoc Obstacle;
-  /// The branches of which that cannot be.
+  /// The branches of which nothing can be told.
   llvm::SmallPtrSet<const llvm::BasicBlock *, 4> Untold;
   /// The values that tell() has come to.
   llvm::SmallPtrSet<const llvm::Value *, 16> Asked;
+  llvm::DebugLoc Obstacle;
 };
 
 } // namespace pocl

@@ -280,9 +280,10 @@ bool guardReturned(Function &F, DebugLoc &Obstacle) {
         return isa<AllocaInst>(I) && I.getParent() != &F.getEntryBlock();
       }))
     return false;
+  const Differences Differ = differencesIn(F);
   for (const bool Tells : {false, true})
     for (const bool Coarse : {true, false}) {
-      GroupCode Code(F, Coarse, Tells);
+      GroupCode Code(F, Differ, Coarse, Tells);
       if (!Code.find()) {
         Obstacle = Code.obstacle();
         continue;

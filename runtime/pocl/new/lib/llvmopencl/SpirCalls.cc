@@ -16,6 +16,7 @@ POP_COMPILER_DIAGS
 #include <array>
 #include <cstdlib>
 #include <utility>
+#include <vector>
 
 using namespace llvm;
 
@@ -78,7 +79,8 @@ std::string signature(StringRef Mangled) {
 std::string meaning(StringRef Mangled) {
   const std::string Text = signature(Mangled);
   SmallVector<StringRef, 5> Parts;
-  if (!Regex("^__spirv_(S|U|SU)Dot(AccSat)?(KHR)?_Ru?int"
+  if (!StringRef(Text).starts_with("__spirv_") ||
+      !Regex("^__spirv_(S|U|SU)Dot(AccSat)?(KHR)?_Ru?int"
              "\\(char vector\\[4\\], char vector\\[4\\](, int)?\\)$")
            .match(Text, &Parts))
     return Text;
@@ -92,13 +94,26 @@ std::string meaning(StringRef Mangled) {
          Second + " vector[4]" + Sum + ")";
 }
 
-/// The library's functions that \p M may mean, by signature.
-StringMap<const Function *> findOffered(const Module &M,
+/// A function that a translated module wants, and what it means.
+struct Declared {
+  Function *Of;
+  std::string Signature;
+};
+
+std::vector<Declared> declaredIn(Module &M) {
+  std::vector<Declared> Found;
+  for (Function &F : M)
+    if (F.isDeclaration() && !baseName(F.getName()).empty())
+      Found.push_back({&F, meaning(F.getName())});
+  return Found;
+}
+
+/// The library's functions that may be meant, by signature.
+StringMap<const Function *> findOffered(ArrayRef<Declared> Meant,
                                         const Module &Library) {
   StringSet<> Wanted;
-  for (const Function &F : M)
-    if (F.isDeclaration() && !baseName(F.getName()).empty())
-      Wanted.insert(StringRef(meaning(F.getName())).split('(').first);
+  for (const Declared &Each : Meant)
+    Wanted.insert(StringRef(Each.Signature).split('(').first);
   StringMap<const Function *> Offered;
   for (const Function &F : Library)
     if (!F.isDeclaration() && Wanted.contains(baseName(F.getName())))
@@ -241,13 +256,9 @@ void adaptPrints(Function &Print) {
 std::string callLibrary(Module &M, const Module &Library) {
   if (Function *Print = M.getFunction("printf"))
     adaptPrints(*Print);
-  const StringMap<const Function *> Offered = findOffered(M, Library);
-  SmallVector<Function *, 16> Declared;
-  for (Function &F : M)
-    if (F.isDeclaration() && !baseName(F.getName()).empty())
-      Declared.push_back(&F);
-  for (Function *F : Declared) {
-    std::string Signature = meaning(F->getName());
+  const std::vector<Declared> Meant = declaredIn(M);
+  const StringMap<const Function *> Offered = findOffered(Meant, Library);
+  for (auto [F, Signature] : Meant) {
     const Function *Own = Offered.lookup(Signature);
     if (!Own) {
       // SPIR-V wants some pointers generic that OpenCL C 1.2 has private. All

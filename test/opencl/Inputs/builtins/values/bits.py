@@ -42,7 +42,7 @@ def field_of_bits(overload):
 
 
 def product(result, a, b, total=None):
-    """A sum that does not fit is undefined only where nothing saturates, and four products of bytes always fit."""
+    """Four products of bytes always fit into the result. With a total, the sum saturates."""
     value = sum(x * y for x, y in zip(a, b))
     return value if total is None else result.clamped(value + total)
 
