@@ -3,8 +3,10 @@
 #include "Description.h"
 #include "Device.h"
 #include "Event.h"
+#include "KnownPrograms.h"
 #include "MemoryOperations.h"
 #include "Messages.h"
+#include "ProgramKernels.h"
 
 extern "C" {
 #include "common.h"
@@ -12,6 +14,7 @@ extern "C" {
 #include "config.h"
 #include "devices.h"
 #include "pocl_file_util.h"
+#include "pocl_llvm.h"
 #include "pocl_local_size.h"
 #include "pocl_mem_management.h"
 #include "pocl_timing.h"
@@ -48,7 +51,6 @@ void keepSourceLines() {
 
 cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
   keepSourceLines();
-  endInOneLineWithoutMemory();
   cl_int Status = CL_SUCCESS;
   Machine Opened = openMachine(Parameters, Status);
   if (!Opened)
@@ -138,14 +140,36 @@ int freeProgram(cl_device_id Device, cl_program Program, unsigned Index) {
 
 int buildSource(cl_program Program, cl_uint Index, cl_uint NumHeaders,
                 const cl_program *Headers, const char **Names, int Link) {
-  deviceOf(Program->devices[Index]).Kernels.forget(Program);
-  return pocl_driver_build_source(Program, Index, NumHeaders, Headers, Names,
-                                  Link);
+  KernelCache &Kernels = deviceOf(Program->devices[Index]).Kernels;
+  Kernels.forget(Program);
+  if (NumHeaders == 0 && takeKnownProgram(Program, Index, Kernels.tools()))
+    return CL_SUCCESS;
+  const int Status = pocl_driver_build_source(Program, Index, NumHeaders,
+                                              Headers, Names, Link);
+  if (NumHeaders == 0 && Status == CL_SUCCESS)
+    keepKnownProgram(Program, Index, Kernels.tools());
+  return Status;
 }
 
 int buildBinary(cl_program Program, cl_uint Index, int Link, int Spir) {
   deviceOf(Program->devices[Index]).Kernels.forget(Program);
+  // One of PoCL's has its kernels' images, or what they are compiled from.
+  if (Program->pocl_binaries[Index])
+    return CL_SUCCESS;
   return pocl_driver_build_binary(Program, Index, Link, Spir);
+}
+
+int setupMetadata(cl_device_id Device, cl_program Program, unsigned Index) {
+  if (!Program->llvm_irs[Index]) {
+    if (takeKernels(Program, Index))
+      return 1;
+    if (pocl_llvm_read_program_llvm_irs(Program, Index, nullptr))
+      return 0;
+  }
+  const int IsSetUp = pocl_driver_setup_metadata(Device, Program, Index);
+  if (IsSetUp)
+    keepKernels(Program, Index);
+  return IsSetUp;
 }
 
 // --- Commands and events. The lock of an event or queue is held by the caller
@@ -292,7 +316,7 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
   Ops->link_program = pocl_driver_link_program;
   Ops->build_binary = buildBinary;
   Ops->build_poclbinary = buildPoclBinary;
-  Ops->setup_metadata = pocl_driver_setup_metadata;
+  Ops->setup_metadata = setupMetadata;
   Ops->supports_binary = pocl_driver_supports_binary;
   Ops->free_program = freeProgram;
   Ops->compile_kernel = compileKernel;

@@ -11,8 +11,4 @@ namespace vorion {
 /// gave clCreateContext, or, if it gave none, standard error.
 void tellFailure(cl_context Context, cl_int Status, const std::string &Text);
 
-/// From now on, when memory runs out inside LLVM, which cannot go on then, the
-/// process ends with one line and exit code 5 instead of a signal.
-void endInOneLineWithoutMemory();
-
 } // namespace vorion

@@ -29,6 +29,11 @@ fs::path libraryFile() {
   return fs::canonical(Info.dli_fname, Error);
 }
 
+/// What of PoCL needs LLVM, which lies beside it.
+fs::path compilerLibraryFile() {
+  return libraryFile().replace_filename("libvorion-pocl-compiler.so");
+}
+
 /// Where a message of a tool is cut off.
 constexpr size_t MaxToolOutput = 65536;
 /// Where remarks are, of which there may be several a line.
@@ -81,10 +86,11 @@ Tools::Tools() {
 }
 
 std::string Tools::fingerprint() const {
-  std::vector<fs::path> Files = {
-      libraryFile(), fs::path(Root) / "bin" / "vorion-clang",
-      fs::path(Root) / "bin" / "vorion-link",
-      fs::path(Root) / "pocl" / "share" / "pocl" / "kernel-vorion.bc"};
+  std::vector<fs::path> Files = {libraryFile(), compilerLibraryFile(),
+                                 fs::path(Root) / "bin" / "vorion-clang",
+                                 fs::path(Root) / "bin" / "vorion-link",
+                                 fs::path(Root) / "pocl" / "share" / "pocl" /
+                                     "kernel-vorion.bc"};
   std::error_code Error;
   for (const char *Folder : {"lib/vorion", "include/vorion"})
     for (const auto &Entry :

@@ -20,8 +20,8 @@ public:
   /// Headers for kernels.
   std::string includeFolder() const { return Root + "/include/vorion"; }
 
-  /// Changes whenever this library, a tool or the device library does. Part of
-  /// the key of cached binaries.
+  /// Changes whenever this library, the compiler's, a tool or the device
+  /// library does. Part of the key of cached binaries.
   std::string fingerprint() const;
 
   /// Bitcode to a relocatable object; unless \p Optimize, with variables where

@@ -1,0 +1,213 @@
+#include "KnownPrograms.h"
+
+extern "C" {
+#include "pocl_cache.h"
+#include "pocl_checked_file.h"
+#include "pocl_file_util.h"
+#include "pocl_runtime_config.h"
+#include "pocl_util.h"
+}
+
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <link.h>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+namespace fs = std::filesystem;
+
+namespace vorion {
+
+namespace {
+
+bool isOfWord(char C) {
+  return std::isalnum(static_cast<unsigned char>(C)) || C == '_';
+}
+
+/// Without the ends of lines behind a backslash, which may stand in a word.
+std::string withJoinedLines(std::string_view Text) {
+  std::string Joined;
+  Joined.reserve(Text.size());
+  for (size_t I = 0; I < Text.size(); ++I) {
+    size_t End = I + 1;
+    if (Text[I] == '\\') {
+      while (End < Text.size() && Text[End] != '\n' &&
+             std::isspace(static_cast<unsigned char>(Text[End])))
+        ++End;
+      if (End < Text.size() && Text[End] == '\n') {
+        I = End;
+        continue;
+      }
+    }
+    Joined += Text[I];
+  }
+  return Joined;
+}
+
+std::string_view withoutBlanks(std::string_view Text) {
+  const size_t First = Text.find_first_not_of(" \t\r");
+  return First == Text.npos ? std::string_view() : Text.substr(First);
+}
+
+/// Whether a line with the word `include` names one of the toolchain's headers,
+/// which the fingerprint of the tools covers.
+bool includesOurs(std::string_view Line, const Tools &ToolSet) {
+  Line = withoutBlanks(Line);
+  for (const std::string_view Word : {"#", "include", "<"}) {
+    if (!Line.starts_with(Word))
+      return false;
+    Line = withoutBlanks(Line.substr(Word.size()));
+  }
+  const size_t End = Line.find('>');
+  if (End == Line.npos || Line.substr(0, End).find('/') != Line.npos)
+    return false;
+  std::error_code Error;
+  return fs::is_regular_file(
+      fs::path(ToolSet.includeFolder()) / Line.substr(0, End), Error);
+}
+
+/// Whether the text gives the same program for as long as neither it nor the
+/// compiler changes. A text that only may not is said not to.
+bool namesItsProgram(const char *Source, const char *Options,
+                     const Tools &ToolSet) {
+  std::istringstream Words(Options ? Options : "");
+  for (std::string Word; Words >> Word;)
+    if (Word.starts_with("-i")) // -include and its kin
+      return false;
+  if (std::strstr(Source, "?\?/")) // a backslash to some
+    return false;
+  const std::string Joined = withJoinedLines(Source);
+  const std::string_view Text = Joined;
+  for (size_t I = 0; I < Text.size();) {
+    if (!isOfWord(Text[I])) {
+      ++I;
+      continue;
+    }
+    const size_t Begin = I;
+    while (I < Text.size() && isOfWord(Text[I]))
+      ++I;
+    const std::string_view Word = Text.substr(Begin, I - Begin);
+    if (Word == "include") {
+      const size_t Line = Text.rfind('\n', Begin) + 1;
+      if (!includesOurs(Text.substr(Line, Text.find('\n', Begin) - Line),
+                        ToolSet))
+        return false;
+    }
+    for (const char *Other :
+         {"include_next", "import", "embed", "__has_include",
+          "__has_include_next", "__has_embed", "__DATE__", "__TIME__",
+          "__TIMESTAMP__"})
+      if (Word == Other)
+        return false;
+  }
+  return true;
+}
+
+/// Size, time and path, as a line.
+std::string stateOf(const fs::path &File) {
+  std::error_code Error;
+  return std::to_string(fs::file_size(File, Error)) + " " +
+         std::to_string(
+             fs::last_write_time(File, Error).time_since_epoch().count()) +
+         " " + File.string() + "\n";
+}
+
+int addCompiler(dl_phdr_info *Info, size_t, void *Files) {
+  const std::string_view Path(Info->dlpi_name);
+  for (const char *Name : {"/libLLVM", "/libclang"})
+    if (Path.find(Name) != Path.npos)
+      *static_cast<std::string *>(Files) += stateOf(Info->dlpi_name);
+  return 0;
+}
+
+/// What made a program, beside what the fingerprint of the tools covers: clang,
+/// and the headers in front of every program. A line each.
+std::string compilerFiles() {
+  std::string Files;
+  char Data[POCL_MAX_PATHNAME_LENGTH];
+  pocl_get_private_datadir(Data);
+  std::error_code Error;
+  for (const auto &Entry :
+       fs::directory_iterator(fs::path(Data) / "include", Error))
+    Files += stateOf(Entry.path());
+  dl_iterate_phdr(addCompiler, &Files);
+  return Files;
+}
+
+/// Whether all files are as these lines say.
+bool areUnchanged(const std::string &Files) {
+  std::istringstream Lines(Files);
+  for (std::string Line; std::getline(Lines, Line);) {
+    const size_t Path = Line.find(' ', Line.find(' ') + 1) + 1;
+    if (Path == 0 || stateOf(Line.substr(Path)) != Line + "\n")
+      return false;
+  }
+  return true;
+}
+
+/// Where the kernel cache has what is known of the program's text. Empty if it
+/// cannot be there. The program's hash becomes that of the text.
+std::string placeOf(cl_program Program, cl_uint Index, const Tools &ToolSet) {
+  // A compiler that wants to find its kernels begins with an empty cache.
+  if (!pocl_get_bool_option("POCL_KERNEL_CACHE", 1) ||
+      pocl_get_string_option("VORION_KERNEL_FOLDER", nullptr) ||
+      pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0) ||
+      !namesItsProgram(Program->source, Program->compiler_options, ToolSet))
+    return {};
+  // No preprocessed text begins so.
+  const std::string Key = std::string("#text\n") + Program->source;
+  char Path[POCL_MAX_PATHNAME_LENGTH];
+  if (pocl_cache_create_program_cachedir(Program, Index, Key.data(), Key.size(),
+                                         Path))
+    return {};
+  return fs::path(Path).replace_filename("known").string();
+}
+
+} // namespace
+
+bool takeKnownProgram(cl_program Program, cl_uint Index, const Tools &ToolSet) {
+  auto &Hash = Program->build_hash[Index];
+  const std::string Place = placeOf(Program, Index, ToolSet);
+  char *Known = nullptr, *Binary = nullptr;
+  uint64_t Size = 0;
+  if (!Place.empty() && pocl_read_checked_file(Place.c_str(), &Known, &Size) ==
+                            POCL_CHECKED_FILE_OK) {
+    if (Size >= sizeof(Hash) &&
+        areUnchanged(std::string(Known + sizeof(Hash), Size - sizeof(Hash)))) {
+      std::memcpy(Hash, Known, sizeof(Hash));
+      char Path[POCL_MAX_PATHNAME_LENGTH];
+      pocl_cache_program_bc_path(Path, Program, Index);
+      const auto Found = pocl_read_checked_file(Path, &Binary, &Size);
+      if (Found != POCL_CHECKED_FILE_OK)
+        Binary = nullptr;
+      if (Found == POCL_CHECKED_FILE_DAMAGED) // it is made again, with its log
+        pocl_cache_forget_buildlog(Program, Index);
+    }
+    std::free(Known);
+  }
+  if (!Binary) {
+    std::memset(Hash, 0, sizeof(Hash));
+    return false;
+  }
+  POCL_MEM_FREE(Program->binaries[Index]);
+  Program->binaries[Index] = reinterpret_cast<unsigned char *>(Binary);
+  Program->binary_sizes[Index] = Size;
+  return true;
+}
+
+void keepKnownProgram(cl_program Program, cl_uint Index, const Tools &ToolSet) {
+  auto &Hash = Program->build_hash[Index];
+  const std::string Known =
+      std::string(reinterpret_cast<const char *>(Hash), sizeof(Hash)) +
+      compilerFiles();
+  const std::string Built = Known.substr(0, sizeof(Hash));
+  const std::string Place = placeOf(Program, Index, ToolSet);
+  if (!Place.empty())
+    pocl_write_checked_file(Place.c_str(), Known.data(), Known.size());
+  std::memcpy(Hash, Built.data(), sizeof(Hash));
+}
+
+} // namespace vorion
