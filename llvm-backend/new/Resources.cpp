@@ -79,6 +79,7 @@ public:
     All["joins"] = Joins;
     All["barriers"] = Barriers;
     All["divisions"] = Divisions;
+    All["rounds"] = rounds();
     All["calls"] = json::Array(Calls);
     All["branches"] = branches();
     return All;
@@ -196,6 +197,22 @@ private:
     };
     To["local_bytes"] = Field(offsetof(vx_kernel, local_bytes));
     To["context_bytes"] = Field(offsetof(vx_kernel, context_bytes));
+  }
+
+  /// Why PoCL's passes let the kernel run in rounds (SimtMeetings.cc). A module
+  /// has one kernel.
+  json::Value rounds() const {
+    const Function &F = MF.getFunction();
+    const NamedMDNode *Notes = F.getParent()->getNamedMetadata("vorion.rounds");
+    if (!Notes || !F.hasFnAttribute("vorion-kernel"))
+      return nullptr;
+    const MDNode &Note = *Notes->getOperand(0);
+    json::Object Told{
+        {"reason", cast<MDString>(Note.getOperand(0))->getString()}};
+    const DISubprogram *Source = F.getSubprogram();
+    addPlace(Told, Source ? Source->getFilename() : "",
+             mdconst::extract<ConstantInt>(Note.getOperand(1))->getZExtValue());
+    return Told;
   }
 
   json::Array branches() const {

@@ -144,6 +144,10 @@ std::string table(const json::Array &Functions) {
     Out << "\n";
     for (const json::Value &Callee : *Function.getArray("calls"))
       Out << "  calls " << *Callee.getAsString() << "\n";
+    if (const json::Object *Rounds = Function.getObject("rounds"))
+      Out << llvm::formatv(
+          "  {0}: runs in rounds from barrier to barrier: {1}\n",
+          place(*Rounds), *Rounds->getString("reason"));
     // A kernel with barriers has many loops over its work-items at one place.
     std::set<std::string> Told;
     for (const json::Value &Any : *Function.getArray("branches")) {

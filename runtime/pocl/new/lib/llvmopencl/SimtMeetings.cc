@@ -219,19 +219,21 @@ bool partsBeforeBarriers(BasicBlock &Branch, BasicBlock *Meeting) {
   return false;
 }
 
-/// A branch that is the same for the whole group by what is known of its
-/// condition is none of these.
-bool needsRounds(Function &F) {
+/// A block for whose branch the kernel needs rounds; null if there is none. A
+/// branch that is the same for the whole group by what is known of its
+/// condition is none.
+BasicBlock *partingBeforeBarriers(Function &F) {
   const DominatorTree Dominators(F);
   PostDominatorTree After(F);
   LoopInfo Loops(Dominators);
   VariableUniformityAnalysisResult Uniformity;
   Uniformity.runOnFunction(F, Loops, After);
-  return any_of(F, [&](BasicBlock &Branch) {
+  const auto Found = find_if(F, [&](BasicBlock &Branch) {
     Value *Condition = decidingValue(Branch);
     return Condition && !Uniformity.isUniform(&F, Condition) &&
            partsBeforeBarriers(Branch, meetingPlace(Branch, After));
   });
+  return Found == F.end() ? nullptr : &*Found;
 }
 
 //===----------------------------------------------------------------------===//
@@ -281,19 +283,33 @@ bool separateHeads(Function &F) {
                 [](const Loop *L) { return separateHeads(*L); });
 }
 
+/// Why a kernel runs in rounds, and in which line of it that begins. For the
+/// machine's compiler, which is to tell it (llvm-backend/new/Resources.cpp):
+/// the kernel itself becomes a part of others.
+void keepReasonOfRounds(Module &M, StringRef Reason, unsigned Line) {
+  LLVMContext &Context = M.getContext();
+  M.getOrInsertNamedMetadata("vorion.rounds")
+      ->addOperand(
+          MDNode::get(Context, {MDString::get(Context, Reason),
+                                ConstantAsMetadata::get(ConstantInt::get(
+                                    Type::getInt32Ty(Context), Line))}));
+}
+
 /// Tells whoever listens (docs/backend.md, Remarks) why the kernel is slow.
 void tellOfRounds(Function &F, const DebugLoc &Return,
                   const DebugLoc &Obstacle) {
+  std::string Reason =
+      "work-items may return here before a barrier to which others come";
+  if (Obstacle)
+    Reason += ", and those may not agree on their way to it in line " +
+              std::to_string(Obstacle.getLine());
+  keepReasonOfRounds(*F.getParent(), Reason, Return ? Return.getLine() : 0);
   OptimizationRemarkEmitter(&F).emit([&] {
-    OptimizationRemarkMissed Remark("vorion-returns", "Rounds", Return,
-                                    &F.getEntryBlock());
-    Remark << "work-items may return here before a barrier to which others "
-              "come";
-    if (Obstacle)
-      Remark << ", and those may not agree on their way to it in line "
-             << std::to_string(Obstacle.getLine());
-    return Remark << ": the kernel runs in rounds from barrier to barrier, "
-                     "which takes more time";
+    return OptimizationRemarkMissed("vorion-returns", "Rounds", Return,
+                                    &F.getEntryBlock())
+           << Reason
+           << ": the kernel runs in rounds from barrier to barrier, which "
+              "takes more time";
   });
 }
 
@@ -323,7 +339,12 @@ PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
     Changed = true;
   for (BlockSet Known; meetBeforeBarrier(F, Known);)
     Changed = true;
-  if (needsRounds(F)) {
+  if (const BasicBlock *Parting = partingBeforeBarriers(F)) {
+    const DebugLoc &At = Parting->getTerminator()->getDebugLoc();
+    keepReasonOfRounds(*F.getParent(),
+                       "work-items may part here, with a barrier on a way that "
+                       "not all of the group need take",
+                       At ? At.getLine() : 0);
     runInRounds(F);
     Changed = true;
   }
