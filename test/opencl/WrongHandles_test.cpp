@@ -1,138 +1,21 @@
 /// An object of another kind, or one that was released, wherever OpenCL's
 /// functions take one: the error that the standard names, never a crash.
 
-#include "TestDevice.h"
+#include "WrongHandles.h"
 
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <map>
-#include <set>
-#include <string>
 #include <vector>
 
-using vorion::test::TestDevice;
+using namespace vorion::test;
 
 // clang-format off
 // OpenCL 2.0 and later; the headers of these tests are those of 1.2.
-extern "C" cl_kernel clCloneKernel(cl_kernel, cl_int *);
 extern "C" cl_int clSetContextDestructorCallback(cl_context, void (*)(cl_context, void *), void *);
 extern "C" cl_int clGetKernelSubGroupInfo(cl_kernel, cl_device_id, cl_uint, size_t, const void *, size_t, void *, size_t *);
 // clang-format on
 
 namespace {
-
-constexpr const char *Source =
-    "kernel void k(global int *b, constant int *c, read_only image2d_t i,\n"
-    "              sampler_t s, local int *l) { b[0] = c[0]; }";
-
-enum class Kind {
-  Platform,
-  Device,
-  Context,
-  Queue,
-  Buffer,
-  Image,
-  Sampler,
-  Program,
-  Kernel,
-  Event,
-};
-
-/// A function with all its arguments but one.
-struct Use {
-  std::string Name;
-  std::set<Kind> Takes;
-  cl_int Error; ///< for all others
-  std::function<cl_int(void *)> Call;
-};
-
-template <typename T> T as(void *Object) { return static_cast<T>(Object); }
-
-class WrongHandles : public testing::Test {
-protected:
-  void SetUp() override {
-    VORION_REQUIRE_DEVICE(Open);
-    std::string Log;
-    Code = Open.build(Source, Log);
-    ASSERT_EQ(Log, "");
-    K = cl::Kernel(Code, "k");
-    Data = Open.upload(std::vector<int32_t>(1024, 7));
-    Picture = cl::Image2D(Open.context(), CL_MEM_READ_WRITE,
-                          {CL_RGBA, CL_UNSIGNED_INT8}, 16, 16);
-    Reading = cl::Sampler(Open.context(), CL_FALSE, CL_ADDRESS_CLAMP,
-                          CL_FILTER_NEAREST);
-    ASSERT_EQ(
-        clEnqueueMarkerWithWaitList(Open.queue()(), 0, nullptr, &Marker()),
-        CL_SUCCESS);
-    Device = Open.context().getInfo<CL_CONTEXT_DEVICES>()[0];
-    Objects = {{Kind::Platform, Device.getInfo<CL_DEVICE_PLATFORM>()},
-               {Kind::Device, Device()},
-               {Kind::Context, Open.context()()},
-               {Kind::Queue, Open.queue()()},
-               {Kind::Buffer, Data()},
-               {Kind::Image, Picture()},
-               {Kind::Sampler, Reading()},
-               {Kind::Program, Code()},
-               {Kind::Kernel, K()},
-               {Kind::Event, Marker()}};
-    Released = released();
-  }
-
-  /// The handles of an object of each kind that is no more.
-  std::vector<void *> released() const {
-    const cl::Context C(Device);
-    const cl::CommandQueue Q(C, Device);
-    const cl::Buffer B(C, CL_MEM_READ_WRITE, 64);
-    const cl::Image2D I(C, CL_MEM_READ_WRITE, {CL_RGBA, CL_UNSIGNED_INT8}, 4,
-                        4);
-    const cl::Sampler S(C, CL_FALSE, CL_ADDRESS_CLAMP, CL_FILTER_NEAREST);
-    cl::Program P(C, Source);
-    EXPECT_EQ(P.build(""), CL_SUCCESS);
-    const cl::Kernel Last(P, "k");
-    const cl::UserEvent E(C);
-    return {C(), Q(), B(), I(), S(), P(), Last(), E()};
-  }
-
-  /// Calls each function with every object of a kind that it does not take, and
-  /// with every object that was released.
-  void refuses(const std::vector<Use> &Uses) const {
-    for (const Use &U : Uses) {
-      for (const auto &[Which, Object] : Objects)
-        if (!U.Takes.contains(Which))
-          EXPECT_EQ(U.Call(Object), U.Error)
-              << U.Name << ", object " << static_cast<int>(Which);
-      for (std::size_t I = 0; I < Released.size(); ++I)
-        EXPECT_EQ(U.Call(Released[I]), U.Error)
-            << U.Name << ", released object " << I;
-    }
-  }
-
-  const TestDevice Open;
-  cl::Device Device;
-  cl::Program Code;
-  cl::Kernel K;
-  cl::Buffer Data;
-  cl::Image2D Picture;
-  cl::Sampler Reading;
-  cl::Event Marker;
-  std::map<Kind, void *> Objects;
-  std::vector<void *> Released;
-};
-
-#define VORION_USE(TAKES, ERROR, CALL)                                         \
-  Use {                                                                        \
-    #CALL, TAKES, ERROR, [&](void *O) -> cl_int { return CALL; }               \
-  }
-/// For functions that give the error in their last argument, S.
-#define VORION_MAKE(TAKES, ERROR, CALL)                                        \
-  Use {                                                                        \
-    #CALL, TAKES, ERROR, [&](void *O) -> cl_int {                              \
-      cl_int S = CL_SUCCESS;                                                   \
-      (void)(CALL);                                                            \
-      return S;                                                                \
-    }                                                                          \
-  }
 
 /// A sampler for a buffer ended the host.
 TEST_F(WrongHandles, InArgumentsOfKernelsAreRefused) {
@@ -153,53 +36,6 @@ TEST_F(WrongHandles, InArgumentsOfKernelsAreRefused) {
   EXPECT_EQ(Set(0, nullptr), CL_SUCCESS);
   EXPECT_EQ(Set(2, Picture()), CL_SUCCESS);
   EXPECT_EQ(Set(3, Reading()), CL_SUCCESS);
-}
-
-/// The kernel does not retain them. They ended the host.
-TEST_F(WrongHandles, ArgumentsReleasedBeforeTheStartAreRefused) {
-  const auto Fill = [&](cl_kernel Of) {
-    EXPECT_EQ(clSetKernelArg(Of, 0, sizeof(cl_mem), &Data()), CL_SUCCESS);
-    EXPECT_EQ(clSetKernelArg(Of, 1, sizeof(cl_mem), &Data()), CL_SUCCESS);
-    EXPECT_EQ(clSetKernelArg(Of, 2, sizeof(cl_mem), &Picture()), CL_SUCCESS);
-    EXPECT_EQ(clSetKernelArg(Of, 3, sizeof(cl_sampler), &Reading()),
-              CL_SUCCESS);
-    EXPECT_EQ(clSetKernelArg(Of, 4, 64, nullptr), CL_SUCCESS);
-  };
-  const auto Start = [&](cl_kernel Of) {
-    const size_t Items = 16;
-    return clEnqueueNDRangeKernel(Open.queue()(), Of, 1, nullptr, &Items,
-                                  nullptr, 0, nullptr, nullptr);
-  };
-  const auto Short = [&] {
-    return cl::Buffer(Open.context(), CL_MEM_READ_WRITE, 64);
-  };
-  Fill(K());
-  EXPECT_EQ(K.setArg(0, Short()), CL_SUCCESS);
-  EXPECT_EQ(Start(K()), CL_INVALID_KERNEL_ARGS) << "the buffer";
-  cl_int Status = CL_SUCCESS;
-  const cl_kernel Clone = clCloneKernel(K(), &Status);
-  EXPECT_EQ(Start(Clone), CL_INVALID_KERNEL_ARGS) << "of the kernel's clone";
-  clReleaseKernel(Clone);
-  // Other buffers take the memory of those that were released long ago.
-  for (int I = 0; I < 3000; ++I)
-    Short();
-  std::vector<cl::Buffer> Others;
-  for (int I = 0; I < 1500; ++I)
-    Others.push_back(Short());
-  EXPECT_EQ(Start(K()), CL_INVALID_KERNEL_ARGS) << "another buffer is none";
-  Fill(K());
-  EXPECT_EQ(K.setArg(2, cl::Image2D(Open.context(), CL_MEM_READ_WRITE,
-                                    {CL_RGBA, CL_UNSIGNED_INT8}, 4, 4)),
-            CL_SUCCESS);
-  EXPECT_EQ(Start(K()), CL_INVALID_KERNEL_ARGS) << "the image";
-  Fill(K());
-  EXPECT_EQ(K.setArg(3, cl::Sampler(Open.context(), CL_FALSE, CL_ADDRESS_CLAMP,
-                                    CL_FILTER_NEAREST)),
-            CL_SUCCESS);
-  EXPECT_EQ(Start(K()), CL_INVALID_KERNEL_ARGS) << "the sampler";
-  Fill(K());
-  EXPECT_EQ(Start(K()), CL_SUCCESS);
-  EXPECT_EQ(Open.queue().finish(), CL_SUCCESS);
 }
 
 /// The image that the kernel read was none of its type.
