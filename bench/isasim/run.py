@@ -44,7 +44,8 @@ TITLES = {"integer": "integer mix", "matmul": "fp32 matrix product 128", "radixs
 OBSERVED = ("matmul", "radixsort")  # what is run with and without observers built in
 
 # What render/Plan.cpp compiles the projection with by default, for a scene with all bands of colour.
-PROJECT_FILES = ("layout.h", "activate.cl", "covariance.cl", "support.cl", "planes.h", "sh_basis.h", "sh.cl", "rectangle.cl", "project.cl")
+PROJECT_FILES = ("layout.h", "has_lens.h", "activate.cl", "covariance.cl", "support.cl", "planes.h", "sh_basis.h", "sh.cl", "rectangle.cl",
+                 "camera_depth.cl", "project_memory.cl", "project.cl")
 PROJECT_DEFINES = ("-DTILE_SIZE=64", "-DSUPPORT_EXACT", "-DDILATION=0.3f", "-DALPHA_CUTOFF=1.0f",
                    "-DKEEP_DEPTH(z)=((z)>0.2f)", "-DANTIALIAS_FLOOR=2.5e-5f", "-DUSE_SH1=1", "-DUSE_SH2=1", "-DUSE_SH3=1",
                    "-DUSE_VIEW_COLOR=1", "-DUSE_ANTIALIAS=0", "-DUSE_NEAR_PLANE=1", "-DUSE_FIELD_OF_VIEW=1",

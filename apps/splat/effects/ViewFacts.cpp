@@ -15,7 +15,7 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// Of the kernels' camera coordinates, a few fp32 roundings of terms as large
 /// as their inputs: 8 units in the last place.
 constexpr double CoordinateError = 8.0 / (1 << 24);
-/// Of their depth, two floats rounded once (kernels/project.cl).
+/// Of their depth, two floats rounded once (kernels/camera_depth.cl).
 constexpr double DepthError = 1e-9;
 constexpr double DepthRounding = 1.0 / (1 << 24);
 

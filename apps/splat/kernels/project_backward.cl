@@ -13,15 +13,10 @@
 #define BY_OPACITY(gradient, opacity) (gradient)
 #endif
 
-// What the camera is, where it is no pinhole.
-#define HAS_LENS                                                               \
-  (USE_OPENCV || USE_FISHEYE || USE_ORTHOGRAPHIC || USE_EQUIRECTANGULAR ||     \
-   USE_UNSCENTED || USE_ROLLING_SHUTTER)
-
 #define GRADIENT(plane) gradients[(plane) * count + i]
 #if USE_EQUIRECTANGULAR
-// A Gaussian and its copies beyond the picture's sides (project.cl), of which
-// those that no tile sees have no sums.
+// A Gaussian and its copies beyond the picture's sides (project_copies.cl), of
+// which those that no tile sees have no sums.
 static float sum_of_copies(__global const float *sums,
                            __global const uint *depths, uint word, uint count,
                            uint i) {

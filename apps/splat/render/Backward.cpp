@@ -48,8 +48,9 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
       Blend.Defines.emplace_back("CLAMP_STOPS");
   }
   ProgramSpec Project{ProjectBackwardProgram,
-                      {"layout.h", "activate.cl", "covariance.cl", "planes.h",
-                       "sh_basis.h", "sh_backward.cl", "backward.cl"},
+                      {"layout.h", "has_lens.h", "activate.cl", "covariance.cl",
+                       "planes.h", "sh_basis.h", "sh_backward.cl",
+                       "backward.cl"},
                       projectionDefines(ShDegree, O)};
   std::ranges::copy(lensFiles(O), std::back_inserter(Project.Files));
   const auto Has = [&Project](const Effect &E) {

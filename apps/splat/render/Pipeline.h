@@ -76,7 +76,7 @@ struct Frame {
   std::array<uint64_t, CullReasons.size()> Culled{};
 
   /// Gaussians with their copies beyond the sides of a picture that closes;
-  /// those of each kind begin at a whole line (kernels/project.cl).
+  /// those of each kind begin at a whole line (kernels/project_copies.cl).
   uint32_t Copies = 1;
   uint32_t stride() const {
     return Copies == 1 ? Gaussians.Count

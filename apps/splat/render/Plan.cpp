@@ -152,8 +152,8 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   RenderPlan Plan{
       std::move(Effects),
       {{ProjectProgram,
-        {"layout.h", "activate.cl", "covariance.cl", "support.cl", "planes.h",
-         "sh_basis.h", "sh.cl", "rectangle.cl"},
+        {"layout.h", "has_lens.h", "activate.cl", "covariance.cl", "support.cl",
+         "planes.h", "sh_basis.h", "sh.cl", "rectangle.cl", "camera_depth.cl"},
         {"VIEW_SPACE=__local"}},
        {SortProgram, {"sort.cl"}, {}},
        {TilesProgram, {"layout.h", "rectangle.cl", "tiles.cl"}, {}},
@@ -170,6 +170,11 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   }
   auto &Project = Plan.Programs.front().Files;
   std::ranges::copy(lensFiles(Options), std::back_inserter(Project));
+  if (Plan.Effects.done(effects::Crop))
+    Project.emplace_back("crop.cl");
+  Project.emplace_back("project_memory.cl");
+  if (Plan.Effects.done(effects::EquirectangularLens))
+    Project.emplace_back("project_copies.cl");
   Project.emplace_back("project.cl");
   if (Plan.Effects.done(effects::ActivatedScene))
     Plan.Programs.push_back(

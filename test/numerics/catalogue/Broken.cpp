@@ -14,23 +14,6 @@ namespace {
 using splat::Path;
 using splat::SimtSums;
 
-constexpr std::string_view Files[] = {
-    "layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl",
-    "lens.cl", "lens_equirectangular.cl", "lens_fisheye.cl", "lens_opencv.cl",
-    "lens_orthographic.cl", "lens_pinhole.cl", "rolling.cl",
-    "rolling_backward.cl", "unscented.cl", "project.cl", "rectangle.cl",
-    "sort.cl", "tiles.cl", "falloff.cl", "units.cl", "blend.cl", "rasterize.cl",
-    "resolve.cl", "merge.cl", "deal.cl", "planes.h", "sh_basis.h", "depth.cl",
-    "normals.cl", "ray_frames.cl", "blend_by_ray.cl",
-    // Training's.
-    "upstream.cl", "rasterize_backward.cl", "pixel_backward.cl",
-    "atomic_sum.cl", "lane_tree.cl", "warp_sums.cl", "blend_backward.cl",
-    "blend_backward_atomics.cl", "reduce.cl", "backward.cl",
-    "unscented_backward.cl", "project_backward.cl", "sh_backward.cl", "adam.cl",
-    "loss.cl", "mask.cl", "exposure.cl", "regularize.cl", "depth_loss.cl",
-    "pose.h", "pose.cl", "philox.h", "axes.cl", "scan.cl", "density.cl",
-    "mcmc.cl"};
-
 constexpr std::string_view PlainProduct =
     "s.det_sharp = xx * yy - dot_in_order(b, c) * dot_in_order(b, c);";
 
@@ -90,16 +73,16 @@ const std::vector<BrokenKernel> &brokenKernels() {
        {{"project.cl", "if (USE_FIELD_OF_VIEW)", "if (false)"}}},
       {"depth-by-plain-sum",
        {},
-       {{"project.cl", "return sum.x + sum.y;", "return sum.x;"}}},
+       {{"camera_depth.cl", "return sum.x + sum.y;", "return sum.x;"}}},
       {"centre-of-one-float",
        {},
        {{"covariance.cl", "return p - high - low;", "return p - high;"}}},
       {"crop-by-plain-sum",
        {},
-       {{"project.cl", "return beside.x + beside.y;", "return beside.x;"}}},
+       {{"crop.cl", "return beside.x + beside.y;", "return beside.x;"}}},
       {"crop-by-plain-axes",
        {},
-       {{"project.cl",
+       {{"crop.cl",
          "crop->across_low[axis][k] * d.x +\n                      "
          "crop->across[axis][k] * d.y",
          "crop->across[axis][k] * d.y"}}},
@@ -366,7 +349,7 @@ Expected<Success> writeKernels(const std::string &Folder,
                                const BrokenKernel &B) {
   std::error_code Failed;
   std::filesystem::create_directories(Folder, Failed);
-  for (const std::string_view File : Files) {
+  for (const std::string_view File : splat::kernelFiles()) {
     std::string Text(splat::kernelSource(File));
     for (const KernelEdit &E : B.Edits) {
       if (E.File != File)
