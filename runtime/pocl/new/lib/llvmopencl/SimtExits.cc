@@ -1,7 +1,7 @@
 #include "SimtExits.h"
 
 #include "LLVMUtils.h"
-#include "SimtWorkitems.h"
+#include "SimtInstructions.h"
 #include "UnifyExits.h"
 #include "VariableUniformityAnalysis.h"
 #include "WorkitemHandlerChooser.h"

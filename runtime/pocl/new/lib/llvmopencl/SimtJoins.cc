@@ -2,8 +2,8 @@
 
 #include "Barrier.h"
 #include "LLVMUtils.h"
+#include "SimtBarriers.h"
 #include "SimtBlocks.h"
-#include "SimtWorkitems.h"
 #include "VariableUniformityAnalysis.h"
 #include "Workgroup.h"
 #include "WorkitemHandlerChooser.h"

@@ -10,7 +10,7 @@
 #define POCL_SIMT_REGIONS_H
 
 #include "ParallelRegion.h"
-#include "SimtWorkitems.h"
+#include "SimtInstructions.h"
 
 #include <set>
 #include <vector>

@@ -4,7 +4,7 @@
 
 #include "Barrier.h"
 #include "SimtAgreement.h"
-#include "SimtWorkitems.h"
+#include "SimtInstructions.h"
 
 #include <llvm/ADT/MapVector.h>
 #include <llvm/ADT/SetVector.h>

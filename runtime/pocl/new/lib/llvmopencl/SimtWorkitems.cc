@@ -2,14 +2,10 @@
 
 #include "SimtWorkitems.h"
 
-#include "Barrier.h"
 #include "LLVMUtils.h"
 #include "PassLoops.h"
 #include "ProgramVariables.h"
 #include "SharedVariables.h"
-#include "SimtBlocks.h"
-#include "VariableUniformityAnalysis.h"
-#include "VariableUniformityAnalysisResult.hh"
 #include "Workgroup.h"
 #include "pocl_llvm_api.h"
 
@@ -17,46 +13,17 @@
 
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
-#include <llvm/IR/InlineAsm.h>
 #include <llvm/IR/IntrinsicInst.h>
-#include <llvm/IR/MDBuilder.h>
 #include <llvm/Passes/PassBuilder.h>
 #include <llvm/Transforms/Utils/BasicBlockUtils.h>
 
 #include <cstddef>
-#include <map>
 
 using namespace llvm;
 
 namespace pocl {
 
 namespace {
-
-/// An intrinsic of ours. It may read and write memory for all that the
-/// optimiser knows, and is neither copied nor made conditional.
-FunctionCallee intrinsic(Module &M, StringRef Name, Type *Result,
-                         ArrayRef<Type *> Parameters) {
-  FunctionCallee Callee =
-      M.getOrInsertFunction(Name, FunctionType::get(Result, Parameters, false));
-  if (auto *Decl = dyn_cast<Function>(Callee.getCallee())) {
-    Decl->addFnAttr(Attribute::Convergent);
-    Decl->addFnAttr(Attribute::NoMerge);
-    Decl->addFnAttr(Attribute::NoUnwind);
-  }
-  return Callee;
-}
-
-/// A barrier of the machine. The group is one warp, which passes at once; for
-/// the optimiser it keeps memory accesses in order and cannot be copied, so
-/// that no lane runs ahead of it on a path of its own.
-void createGroupBarrier(IRBuilder<> &Builder) {
-  Type *I32 = Builder.getInt32Ty();
-  FunctionCallee Bar =
-      intrinsic(*Builder.GetInsertBlock()->getModule(), "vorion.vx_bar",
-                Builder.getVoidTy(), {I32, I32});
-  Builder.CreateCall(Bar, {Builder.getInt32(0), Builder.getInt32(1)})
-      ->addFnAttr(Attribute::NoDuplicate);
-}
 
 /// Passes that the optimiser may unroll by its own measure, which weighs what
 /// it copies and suits so few copies.
@@ -70,23 +37,6 @@ LoadInst *loadLaunch(IRBuilder<> &Builder, Type *T, Value *Launch,
   Load->setMetadata(LLVMContext::MD_invariant_load,
                     MDNode::get(Builder.getContext(), {}));
   return Load;
-}
-
-/// All accesses through \p Pointer; false if it may be used otherwise.
-bool collectAccesses(const Value *Pointer,
-                     std::vector<const Instruction *> &Accesses) {
-  for (const User *U : Pointer->users()) {
-    if (isa<GetElementPtrInst>(U)) {
-      if (!collectAccesses(U, Accesses))
-        return false;
-    } else if (isa<LoadInst>(U) ||
-               (isa<StoreInst>(U) && U->getOperand(0) != Pointer)) {
-      Accesses.push_back(cast<Instruction>(U));
-    } else {
-      return false;
-    }
-  }
-  return true;
 }
 
 /// Whether anything but loads may happen through \p Pointer.
@@ -151,159 +101,12 @@ void prepareSimtModule(Module &M) {
   }
 }
 
-Value *createUniform(IRBuilder<> &Builder, Value *Word) {
-  Type *I32 = Builder.getInt32Ty();
-  return Builder.CreateCall(intrinsic(*Builder.GetInsertBlock()->getModule(),
-                                      "vorion.vx_uniform", I32, {I32}),
-                            {Word});
-}
-
-Value *createBallot(IRBuilder<> &Builder, Value *Condition) {
-  Type *I32 = Builder.getInt32Ty();
-  return Builder.CreateCall(intrinsic(*Builder.GetInsertBlock()->getModule(),
-                                      "vorion.vx_vote_ballot", I32, {I32}),
-                            {Builder.CreateZExt(Condition, I32)});
-}
-
-Value *createFromLane(IRBuilder<> &Builder, Value *Word, Value *Lane) {
-  Type *I32 = Builder.getInt32Ty();
-  // In one segment, of all lanes.
-  Value *Control = Builder.CreateOr(Lane, Builder.getInt32(63 << 6));
-  return Builder.CreateCall(intrinsic(*Builder.GetInsertBlock()->getModule(),
-                                      "vorion.vx_shfl_idx", I32, {I32, I32}),
-                            {Word, Control});
-}
-
-/// Marks a value as createOfGroup() says.
-static constexpr const char *GroupValue = "simt.group";
-
-/// The first lane has a work-item in every pass. Those that have none in the
-/// last pass do not know what came of it.
-Value *createOfGroup(IRBuilder<> &Builder, Value *Word) {
-  Value *Of = createUniform(Builder,
-                            createFromLane(Builder, Word, Builder.getInt32(0)));
-  cast<Instruction>(Of)->setMetadata(GroupValue,
-                                     MDNode::get(Builder.getContext(), {}));
-  return Of;
-}
-
-bool isOfGroup(const Value &V) {
-  const auto *I = dyn_cast<Instruction>(&V);
-  return I && I->hasMetadata(GroupValue);
-}
-
 /// Stands for what only the loops over work-items know.
 static constexpr const char *IsFirstPass = "_simt_is_first_pass";
 
 Value *createIsFirstPass(IRBuilder<> &Builder) {
   return Builder.CreateCall(intrinsic(*Builder.GetInsertBlock()->getModule(),
                                       IsFirstPass, Builder.getInt1Ty(), {}));
-}
-
-/// Marks a variable as createLaneVariable() says.
-static constexpr const char *LaneVariable = "simt.lane";
-
-AllocaInst *createLaneVariable(IRBuilder<> &Builder, Type *T,
-                               const char *Name) {
-  AllocaInst *Variable = Builder.CreateAlloca(T, nullptr, Name);
-  Variable->setMetadata(LaneVariable, MDNode::get(Builder.getContext(), {}));
-  return Variable;
-}
-
-bool isLaneVariable(const AllocaInst &Variable) {
-  return Variable.hasMetadata(LaneVariable);
-}
-
-bool lowerSimtBarriers(Function &F) {
-  std::vector<Instruction *> Barriers;
-  for (BasicBlock &Block : F)
-    for (Instruction &I : Block)
-      if (isa<Barrier>(&I))
-        Barriers.push_back(&I);
-  // Loops over work-items begin with one of their own.
-  const bool Needed = fitsOneWarp(*F.getParent());
-  for (Instruction *I : Barriers) {
-    if (Needed && !isa<ReturnInst>(I->getNextNode())) {
-      IRBuilder<> Builder(I);
-      createGroupBarrier(Builder);
-    }
-    I->eraseFromParent();
-  }
-  return !Barriers.empty();
-}
-
-/// Keeps the optimiser from leading ways past this place or copying it, as a
-/// barrier does, but makes no code.
-static void createAnchor(Instruction *Before) {
-  IRBuilder<> Builder(Before);
-  CallInst *Anchor = Builder.CreateCall(
-      InlineAsm::get(FunctionType::get(Builder.getVoidTy(), false), "", "",
-                     /*hasSideEffects=*/true));
-  Anchor->addFnAttr(Attribute::Convergent);
-  Anchor->addFnAttr(Attribute::NoDuplicate);
-  Anchor->addFnAttr(Attribute::NoMerge);
-}
-
-/// Whether work-items may go on in the loop without others of their group.
-static bool mayGoOnApart(const Loop &L,
-                         VariableUniformityAnalysisResult &Uniformity) {
-  SmallVector<BasicBlock *, 8> Latches, Exits;
-  L.getLoopLatches(Latches);
-  L.getExitingBlocks(Exits);
-  Function *F = L.getHeader()->getParent();
-  return any_of(Latches,
-                [&](BasicBlock *Latch) {
-                  return isReachedWithoutBarrier(Latch, L);
-                }) &&
-         any_of(Exits, [&](BasicBlock *Exit) {
-           Value *Condition = decidingValue(*Exit);
-           return Condition && !Uniformity.isUniform(F, Condition);
-         });
-}
-
-static void anchorBarrierLoops(ArrayRef<Loop *> Loops,
-                               VariableUniformityAnalysisResult &Uniformity) {
-  for (Loop *L : Loops) {
-    const bool HasBarrier = any_of(L->blocks(), [](BasicBlock *Block) {
-      return any_of(*Block, [](Instruction &I) { return isa<Barrier>(&I); });
-    });
-    if (!HasBarrier)
-      continue;
-    const bool Apart = mayGoOnApart(*L, Uniformity);
-    Instruction *Head = L->getHeader()->getFirstNonPHI();
-    if (Apart)
-      createAnchor(Head);
-    else
-      Barrier::Create(Head);
-    anchorBarrierLoops(L->getSubLoops(), Uniformity);
-  }
-}
-
-void anchorBarrierLoops(Function &F, LoopInfo &Loops,
-                        PostDominatorTree &PostDominators) {
-  VariableUniformityAnalysisResult Uniformity;
-  Uniformity.runOnFunction(F, Loops, PostDominators);
-  anchorBarrierLoops(Loops.getTopLevelLoops(), Uniformity);
-}
-
-SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
-                           PostDominatorTree &PostDominators) {
-  if (!simtLanes(*F.getParent()))
-    return;
-  VariableUniformityAnalysisResult Uniformity;
-  Uniformity.runOnFunction(F, Loops, PostDominators);
-  for (BasicBlock &Block : F) {
-    const Instruction *Terminator = Block.getTerminator();
-    Value *Condition = decidingValue(Block);
-    if (!Condition)
-      continue;
-    bool Leaves = false;
-    for (Loop *L = Loops.getLoopFor(&Block); L; L = L->getParentLoop())
-      Leaves |= L->isLoopExiting(&Block);
-    const bool Decides = Leaves || (Uniformity.isUniform(&F, Condition) &&
-                                    reachedTwice(Block).empty());
-    (Decides ? Deciding : OfRegion).insert(Terminator);
-  }
 }
 
 Value *createLaunchLoad(IRBuilder<> &Builder, Value *Launch, LaunchField Field,
@@ -558,15 +361,6 @@ void SimtLoops::makeUniform(Instruction *Terminator) {
   }
 }
 
-void createTrap(BasicBlock &Block, BasicBlock *Next, const DebugLoc &At) {
-  IRBuilder<> Builder(&Block);
-  Builder.SetCurrentDebugLocation(At);
-  Builder.CreateCall(
-      InlineAsm::get(FunctionType::get(Builder.getVoidTy(), false), "unimp", "",
-                     /*hasSideEffects=*/true));
-  Builder.CreateBr(Next);
-}
-
 void SimtLoops::trapElsewhere(BasicBlock &Block) {
   const auto IsCutOff = [](BasicBlock *Next) {
     return isa<UnreachableInst>(Next->front());
@@ -616,14 +410,6 @@ void SimtLoops::checkAgreement(Instruction *Terminator, Instruction *Condition,
   Block->getTerminator()->eraseFromParent();
 }
 
-AllocaInst *SimtLoops::createContextArray(Type *Element, Align Alignment,
-                                          const std::string &Name) {
-  IRBuilder<> Builder(&*F.getEntryBlock().getFirstInsertionPt());
-  ContextArrays.push_back(
-      {Builder.CreateAlloca(Element, nullptr, Name), Alignment});
-  return ContextArrays.back().Placeholder;
-}
-
 void SimtLoops::tidyAllocas() {
   std::vector<Instruction *> Unused;
   BasicBlock &Entry = F.getEntryBlock();
@@ -639,87 +425,6 @@ void SimtLoops::tidyAllocas() {
     }
   for (Instruction *I : Unused)
     I->eraseFromParent();
-}
-
-void SimtLoops::tellAliases() {
-  // Arrays whose address goes nowhere but into loads and stores.
-  MDBuilder Builder(F.getContext());
-  MDNode *Domain = Builder.createAnonymousAliasScopeDomain("simt_context");
-  std::map<const Instruction *, Metadata *> ScopeOf;
-  std::vector<Metadata *> Scopes;
-  for (const ContextArray &Array : ContextArrays) {
-    std::vector<const Instruction *> Accesses;
-    if (!collectAccesses(Array.Placeholder, Accesses))
-      continue;
-    Scopes.push_back(Builder.createAnonymousAliasScope(Domain));
-    for (const Instruction *I : Accesses)
-      ScopeOf[I] = Scopes.back();
-  }
-  if (Scopes.empty())
-    return;
-  for (BasicBlock &Block : F)
-    for (Instruction &I : Block) {
-      if (!isa<LoadInst, StoreInst>(I))
-        continue;
-      const auto Own = ScopeOf.find(&I);
-      std::vector<Metadata *> Others;
-      for (Metadata *Scope : Scopes)
-        if (Own == ScopeOf.end() || Scope != Own->second)
-          Others.push_back(Scope);
-      const auto Add = [&I](unsigned Kind, ArrayRef<Metadata *> List) {
-        I.setMetadata(Kind,
-                      MDNode::concatenate(I.getMetadata(Kind),
-                                          MDNode::get(I.getContext(), List)));
-      };
-      if (Own != ScopeOf.end())
-        Add(LLVMContext::MD_alias_scope, Own->second);
-      if (!Others.empty())
-        Add(LLVMContext::MD_noalias, Others);
-    }
-}
-
-/// Pass by pass, and array by array in a pass: what a pass keeps lies within
-/// reach of one address, and lanes that follow each other read words that do.
-uint64_t SimtLoops::placeContextArrays() {
-  if (ContextArrays.empty())
-    return 0;
-  IRBuilder<> Builder(F.getEntryBlock().getTerminator());
-  Value *Context = Builder.CreateLoad(
-      Builder.getPtrTy(),
-      M.getOrInsertGlobal(SimtContextGlobal, Builder.getPtrTy()),
-      "simt_context");
-  // An element's size is a multiple of its alignment. With the largest
-  // alignment first every array of the first pass begins aligned, and the sum
-  // is rounded up so that those of the others do.
-  std::stable_sort(ContextArrays.begin(), ContextArrays.end(),
-                   [](const ContextArray &A, const ContextArray &B) {
-                     return A.Alignment > B.Alignment;
-                   });
-  const DataLayout &Layout = M.getDataLayout();
-  uint64_t Bytes = 0;
-  for (const ContextArray &Array : ContextArrays)
-    Bytes += Layout.getTypeAllocSize(Array.Placeholder->getAllocatedType());
-  Bytes = alignTo(Bytes, ContextArrays.front().Alignment);
-  uint64_t Offset = 0;
-  for (const ContextArray &Array : ContextArrays) {
-    const std::vector<User *> Users(Array.Placeholder->user_begin(),
-                                    Array.Placeholder->user_end());
-    for (User *U : Users) {
-      auto *Element = cast<GetElementPtrInst>(U);
-      Builder.SetInsertPoint(Element);
-      Value *Base = Builder.CreateSub(Element->getOperand(1), Lane);
-      Value *Start = Builder.CreateGEP(
-          Builder.getInt8Ty(), Context,
-          Builder.CreateAdd(Builder.CreateMul(Base, number(Bytes)),
-                            number(Lanes * Offset)),
-          Array.Placeholder->getName());
-      Element->setOperand(0, Start);
-      Element->setOperand(1, Lane);
-    }
-    Offset += Layout.getTypeAllocSize(Array.Placeholder->getAllocatedType());
-    Array.Placeholder->eraseFromParent();
-  }
-  return Bytes;
 }
 
 /// Takes marks of loops back in a kernel that has several, between barriers. A

@@ -7,15 +7,17 @@
 // in the first pass. docs/adr/0006-work-item-loops.md gives the rules.
 //
 // WorkitemLoops uses SimtLoops where it would otherwise build its x, y, z
-// loops; the rest of PoCL's region handling is unchanged.
+// loops; the rest of PoCL's region handling is unchanged. PoCL's own passes
+// include this header alone.
 //
 //===----------------------------------------------------------------------===//
 
 #ifndef POCL_SIMT_WORKITEMS_H
 #define POCL_SIMT_WORKITEMS_H
 
-#include <llvm/Analysis/LoopInfo.h>
-#include <llvm/Analysis/PostDominators.h>
+#include "SimtBarriers.h"
+#include "SimtInstructions.h"
+
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/Module.h>
 
@@ -54,72 +56,8 @@ void addFirstSimtPasses(llvm::PassBuilder &PB);
 /// work-items share the one in the argument buffer.
 void prepareSimtModule(llvm::Module &M);
 
-/// \p Word, a 32-bit integer, with the promise that all lanes agree in it. The
-/// optimiser does not know that it is the same value.
-llvm::Value *createUniform(llvm::IRBuilder<> &Builder, llvm::Value *Word);
-
-/// A bit for each active lane in which \p Condition holds.
-llvm::Value *createBallot(llvm::IRBuilder<> &Builder, llvm::Value *Condition);
-
-/// \p Word of another lane; if that is not active, the lane's own. A lane that
-/// there is not is at most 63.
-llvm::Value *createFromLane(llvm::IRBuilder<> &Builder, llvm::Value *Word,
-                            llvm::Value *Lane);
-
-/// \p Word of the group's first work-item, which is the same for all of them.
-llvm::Value *createOfGroup(llvm::IRBuilder<> &Builder, llvm::Value *Word);
-bool isOfGroup(const llvm::Value &V);
-
 /// Whether the work-item is one of the group's first pass.
 llvm::Value *createIsFirstPass(llvm::IRBuilder<> &Builder);
-
-/// A variable that a lane has once for all its work-items, and keeps from pass
-/// to pass and across barriers.
-llvm::AllocaInst *createLaneVariable(llvm::IRBuilder<> &Builder, llvm::Type *T,
-                                     const char *Name);
-bool isLaneVariable(const llvm::AllocaInst &Variable);
-
-/// Ends \p Block with a trap. No lane goes on, but there is a branch to \p
-/// Next, because the compiler needs a place where lanes that part meet again.
-void createTrap(llvm::BasicBlock &Block, llvm::BasicBlock *Next,
-                const llvm::DebugLoc &At);
-
-/// Removes PoCL's barriers, where there are no loops in favour of the
-/// machine's.
-bool lowerSimtBarriers(llvm::Function &F);
-
-/// Puts a barrier at the head of each loop that has one anywhere. Otherwise an
-/// inner loop at its head may come to share its header, and lanes that have
-/// left the inner loop would pass the barrier while others are in it. Where a
-/// round may pass no barrier and single work-items may leave, the head gets
-/// only what keeps it apart: work-items may go on without the others there.
-void anchorBarrierLoops(llvm::Function &F, llvm::LoopInfo &Loops,
-                        llvm::PostDominatorTree &PostDominators);
-
-/// Tells branches of single work-items from those of the whole group. Knows
-/// them by their terminators, which stay when blocks are split; empty on
-/// devices without lanes.
-class SimtBranches {
-public:
-  SimtBranches(llvm::Function &F, llvm::LoopInfo &Loops,
-               llvm::PostDominatorTree &PostDominators);
-
-  /// Whether this end of a barrier's block belongs into the region after the
-  /// barrier: work-items may part there, or their ways may meet again before
-  /// the next barrier.
-  bool isOfRegion(const llvm::Instruction *Terminator) const {
-    return OfRegion.count(Terminator);
-  }
-  /// Whether this branch decides for the whole group: a loop with a barrier is
-  /// left here or gone round again, or the ways come to different barriers. At
-  /// the end of a barrier's block it stays with its barrier.
-  bool decides(const llvm::Instruction *Terminator) const {
-    return Deciding.count(Terminator);
-  }
-
-private:
-  std::set<const llvm::Instruction *> OfRegion, Deciding;
-};
 
 /// What kernels ask of a launch block.
 enum class LaunchField {
