@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The clock beside references from other machines, as tables (docs/validation.md).
 # usage: scripts/validate.sh [--peers FOLDER] [REFERENCES [KERNEL...]]   (REFERENCES: a folder, default: ../shared/data/timing;
-# default: all kernels). FOLDER, or VORION_PEERS, has programs that run the other machines now: kernels, loops and dram, or some
-# of them (bench/timing/README.md). What they print takes the place of the references.
+# default: all kernels). FOLDER, or VORION_PEERS, has programs that run the other machines now: kernels, l2, loops and dram, or
+# some of them (bench/timing/README.md). What they print takes the place of the references.
 # exit codes: 0 all within their limits, 1 not so, or a peer failed, 2 usage, 3 a file is none of references
 source "$(dirname "$0")/lib.sh"
 showHelp "$@"
@@ -13,7 +13,7 @@ if [ "${1:-}" = --peers ]; then
   shift 2
 fi
 case "${1:-}" in -*) fail "unknown option $1, expected --help, --peers or a folder" ;; esac
-[ -z "$Peers" ] || [ -d "$Peers" ] || fail "$Peers: no such folder, expected one with the programs kernels, loops or dram"
+[ -z "$Peers" ] || [ -d "$Peers" ] || fail "$Peers: no such folder, expected one with the programs kernels, l2, loops or dram"
 References=${1:-$Root/../shared/data/timing}
 source "$Root/scripts/env.sh"
 Timing=$Root/bench/timing
@@ -28,6 +28,8 @@ findPeer() {
 Status=0
 findPeer kernels
 "$Timing/kernels.py" "${Peer[@]}" "${@:2}" || Status=$?
+findPeer l2
+"$Timing/l2.py" "${Peer[@]}" "${@:2}" || Status=$?
 if [ ! -d "$References" ]; then
   printf '\nvalidate.sh: loops and DRAM skipped: no folder %s with references\n' "$References"
   exit $Status
