@@ -87,6 +87,12 @@ def ours(program, machine):
         return time, hash_of(b"".join(struct.pack("<I", int(line, 16)) for line in file))
 
 
+def another_image(program, reference):
+    """What is wrong if the RTL ran another image."""
+    image = hash_of(image_of(program))
+    return f"image {image}, expected {reference['image']}, which the RTL ran" if image != reference["image"] else ""
+
+
 def table(machine, programs):
     """Prints a machine's rows; returns what is wrong."""
     name, wrong, ratios, names = machine["name"], [], [], []
@@ -98,9 +104,8 @@ def table(machine, programs):
     for kernel, reference in machine["kernels"].items():
         if kernel not in programs:
             continue
-        image = hash_of(image_of(programs[kernel]))
-        if image != reference["image"]:
-            wrong.append(f"{name}: {kernel}: image {image}, expected {reference['image']}, which the RTL ran")
+        if another := another_image(programs[kernel], reference):
+            wrong.append(f"{name}: {kernel}: {another}")
             continue
         time, result = ours(programs[kernel], machine)
         cycles = time["cycles"]
@@ -123,16 +128,22 @@ def table(machine, programs):
     return wrong
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def arguments(description, there):
+    """The command line of a script that compares some of the kernels that are there."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", metavar="FOLDER")
     peers.add(parser)
     parser.add_argument("kernels", nargs="*", metavar="KERNEL")
     args = parser.parse_args()
-    there = sorted(name.removesuffix(".s") for name in os.listdir(os.path.join(HERE, "compiled")))
     unknown = [kernel for kernel in args.kernels if kernel not in there]
     if unknown:
         parser.error(f"{unknown[0]}: no such kernel, expected some of {', '.join(there)}")
+    return args
+
+
+def main():
+    there = sorted(name.removesuffix(".s") for name in os.listdir(os.path.join(HERE, "compiled")))
+    args = arguments(__doc__, there)
     with open(os.path.join(HERE, "references.json")) as file:
         machines = {machine["name"]: machine for machine in json.load(file)}
     wrong = []

@@ -12,7 +12,6 @@ exit codes: 0 with the RTL's parameters all comparable loops are within 5 %, all
 their geometric mean within 5 %, 1 not so, 2 usage
 """
 
-import argparse
 import json
 import math
 import os
@@ -100,19 +99,13 @@ class Machine:
         return (many - few) / (l2_loops.ITERATIONS[1] - l2_loops.ITERATIONS[0])
 
 
-def is_another(program, what, reference):
-    """What is wrong with an image, in a list."""
-    image = kernels.hash_of(kernels.image_of(program))
-    return [f"{what}: image {image}, expected {reference['image']}, which the RTL ran"] if image != reference["image"] else []
-
-
 def table_of_loops(references, programs, machines):
     print(f"\n`{PRESET}` with an L2 beside `{references['name']}`, cycles of an access:\n")
     print("| loop | RTL without L2 | RTL | ours as it is | error | ours with the RTL's values | error |\n|---|--:|--:|--:|--:|--:|--:|")
     wrong = []
     for loop, reference in references["loops"].items():
-        if another := is_another(programs[loop, l2_loops.ITERATIONS[1]], loop, reference):
-            wrong += another
+        if another := kernels.another_image(programs[loop, l2_loops.ITERATIONS[1]], reference):
+            wrong.append(f"{loop}: {another}")
             continue
         theirs, accesses = reference["cycles_per_iteration"], l2_loops.accesses(loop)
         cells = []
@@ -135,8 +128,8 @@ def table_of_kernels(name, run, programs, machines):
     wrong, ratios = [], []
     for kernel, program in programs.items():
         reference = run["kernels"][kernel]
-        if another := is_another(program, kernel, reference):
-            wrong += another
+        if another := kernels.another_image(program, reference):
+            wrong.append(f"{kernel}: {another}")
             continue
         theirs = reference["cycles"]
         ours = [machine.cycles(program, run["dcache_kib"]) for machine in machines]
@@ -154,17 +147,10 @@ def table_of_kernels(name, run, programs, machines):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", metavar="FOLDER")
-    peers.add(parser)
-    parser.add_argument("kernels", nargs="*", metavar="KERNEL")
-    args = parser.parse_args()
     with open(os.path.join(HERE, "l2_references.json")) as file:
         references = json.load(file)
     there = references["kernels"][0]["kernels"]
-    unknown = [kernel for kernel in args.kernels if kernel not in there]
-    if unknown:
-        parser.error(f"{unknown[0]}: no such kernel, expected some of {', '.join(there)}")
+    args = kernels.arguments(__doc__, there)
     with tempfile.TemporaryDirectory() as temporary:
         folder = args.write or temporary
         os.makedirs(folder, exist_ok=True)

@@ -102,9 +102,9 @@ def main():
             wrong = f"printed {output}"
         if not wrong and len(set(warnings)) != len(warnings):
             wrong = f"said it twice: {output}"
-        # What the program reads must have been noticed. A program that its text does not
-        # name any more is named by clang, and one whose code is gone is compiled: that
-        # reads the headers, and no description of its kernels.
+        # What the program reads must have been noticed. If the cache does not know a text
+        # any more, or lacks its program, clang works on it. That reads the headers, and
+        # LLVM then describes the kernels, so their description is not read.
         done_names = {name for name, _ in done}
         compiled = [program for text, program in programs_of_texts.items()
                     if done_names & {text, f"{program}/program.bc"}]

@@ -20,12 +20,7 @@ namespace {
 
 /// Null, and a line on standard error, if the library cannot be loaded.
 const CompilerFunctions *load() {
-  Dl_info Own;
-  if (!dladdr(reinterpret_cast<void *>(&load), &Own))
-    return nullptr;
-  const std::string Path(Own.dli_fname);
-  const std::string File =
-      Path.substr(0, Path.rfind('/') + 1) + "libvorion-pocl-compiler.so";
+  const std::string File = pocl::compilerLibraryFile();
   void *Library = dlopen(File.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void *Found =
       Library ? dlsym(Library, "vorion_compiler_functions") : nullptr;
@@ -57,6 +52,14 @@ const CompilerFunctions *compilerFor(cl_context Context) {
 }
 
 } // namespace
+
+std::string pocl::compilerLibraryFile() {
+  Dl_info Own;
+  if (!dladdr(reinterpret_cast<void *>(&load), &Own))
+    return {};
+  const std::string Path(Own.dli_fname);
+  return Path.substr(0, Path.rfind('/') + 1) + "libvorion-pocl-compiler.so";
+}
 
 // A context is given what the compiler keeps of it when it is needed.
 

@@ -37,6 +37,9 @@ struct CompilerFunctions {
   decltype(&vorion::writeKernelModule) WriteKernelModule;
 };
 
+/// Where the library is: beside PoCL's own.
+std::string compilerLibraryFile();
+
 } // namespace pocl
 
 /// Where the library has them: the only name that is looked up in it.

@@ -70,7 +70,7 @@ bool includesOurs(std::string_view Line, const Tools &ToolSet) {
 }
 
 /// Whether the text gives the same program for as long as neither it nor the
-/// compiler changes. A text that only may not is said not to.
+/// compiler changes. In doubt it does not.
 bool namesItsProgram(const char *Source, const char *Options,
                      const Tools &ToolSet) {
   std::istringstream Words(Options ? Options : "");
@@ -200,14 +200,13 @@ bool takeKnownProgram(cl_program Program, cl_uint Index, const Tools &ToolSet) {
 
 void keepKnownProgram(cl_program Program, cl_uint Index, const Tools &ToolSet) {
   auto &Hash = Program->build_hash[Index];
-  const std::string Known =
-      std::string(reinterpret_cast<const char *>(Hash), sizeof(Hash)) +
-      compilerFiles();
-  const std::string Built = Known.substr(0, sizeof(Hash));
+  const std::string Built(reinterpret_cast<const char *>(Hash), sizeof(Hash));
   const std::string Place = placeOf(Program, Index, ToolSet);
-  if (!Place.empty())
-    pocl_write_checked_file(Place.c_str(), Known.data(), Known.size());
   std::memcpy(Hash, Built.data(), sizeof(Hash));
+  if (Place.empty())
+    return;
+  const std::string Known = Built + compilerFiles();
+  pocl_write_checked_file(Place.c_str(), Known.data(), Known.size());
 }
 
 } // namespace vorion

@@ -1,8 +1,8 @@
 /// Programs that were built from the same text before. PoCL names a program in
 /// the kernel cache by its preprocessed text, and so needs clang to find it. To
 /// load clang takes longer than most small kernels. A text that includes no
-/// file of its own names its program as well as that: the kernel cache keeps
-/// which program it is.
+/// files but ours always gives the same program, and the kernel cache keeps
+/// which.
 #pragma once
 
 #include "Tools.h"

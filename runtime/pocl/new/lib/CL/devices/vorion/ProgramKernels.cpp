@@ -78,7 +78,8 @@ public:
       IsShort = true;
       Size = 0;
     }
-    Elements = static_cast<Element *>(calloc(Size, sizeof(Element)));
+    Elements =
+        Size ? static_cast<Element *>(calloc(Size, sizeof(Element))) : nullptr;
   }
 
 private:

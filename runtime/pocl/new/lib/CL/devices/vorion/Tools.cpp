@@ -1,5 +1,7 @@
 #include "Tools.h"
 
+#include "CompilerLibrary.h"
+
 extern "C" {
 #include "config.h"
 #include "pocl_util.h"
@@ -27,11 +29,6 @@ fs::path libraryFile() {
     return {};
   std::error_code Error;
   return fs::canonical(Info.dli_fname, Error);
-}
-
-/// What of PoCL needs LLVM, which lies beside it.
-fs::path compilerLibraryFile() {
-  return libraryFile().replace_filename("libvorion-pocl-compiler.so");
 }
 
 /// Where a message of a tool is cut off.
@@ -86,7 +83,7 @@ Tools::Tools() {
 }
 
 std::string Tools::fingerprint() const {
-  std::vector<fs::path> Files = {libraryFile(), compilerLibraryFile(),
+  std::vector<fs::path> Files = {libraryFile(), pocl::compilerLibraryFile(),
                                  fs::path(Root) / "bin" / "vorion-clang",
                                  fs::path(Root) / "bin" / "vorion-link",
                                  fs::path(Root) / "pocl" / "share" / "pocl" /
