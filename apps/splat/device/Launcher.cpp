@@ -318,16 +318,20 @@ void Launcher::countCopy(uint64_t Bytes) {
   Stages.back().CopiedBytes += Bytes;
 }
 
+void Launcher::checkCopy(std::string_view What, std::string_view Way,
+                         cl_int Status) {
+  if (Status != CL_SUCCESS)
+    Failure = memoryError(
+        fmt::format("copying the {} {} the device", What, Way), Status);
+}
+
 void Launcher::write(std::string_view What, const cl::Buffer &To,
                      const void *From, uint64_t Bytes) {
   if (Failure || Bytes == 0)
     return;
   countCopy(Bytes);
-  const cl_int Status =
-      Dev.queue().enqueueWriteBuffer(To, CL_TRUE, 0, Bytes, From);
-  if (Status != CL_SUCCESS)
-    Failure =
-        memoryError(fmt::format("copying the {} to the device", What), Status);
+  checkCopy(What, "to",
+            Dev.queue().enqueueWriteBuffer(To, CL_TRUE, 0, Bytes, From));
 }
 
 void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
@@ -335,11 +339,37 @@ void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
   if (Failure || Bytes == 0)
     return;
   countCopy(Bytes);
-  const cl_int Status =
-      Dev.queue().enqueueReadBuffer(From, CL_TRUE, Offset, Bytes, To);
+  checkCopy(What, "from",
+            Dev.queue().enqueueReadBuffer(From, CL_TRUE, Offset, Bytes, To));
+}
+
+cl_int Launcher::mapped(const cl::Buffer &B, cl_map_flags Flags, uint64_t Words,
+                        const std::function<void(std::span<float>)> &Use) {
+  countCopy(4 * Words);
+  const cl::CommandQueue &Queue = Dev.queue();
+  cl_int Status = CL_SUCCESS;
+  void *const At = Queue.enqueueMapBuffer(B, CL_TRUE, Flags, 0, 4 * Words,
+                                          nullptr, nullptr, &Status);
   if (Status != CL_SUCCESS)
-    Failure = memoryError(fmt::format("copying the {} from the device", What),
-                          Status);
+    return Status;
+  Use({static_cast<float *>(At), Words});
+  Status = Queue.enqueueUnmapMemObject(B, At);
+  return Status == CL_SUCCESS ? Queue.finish() : Status;
+}
+
+void Launcher::writeInPlace(std::string_view What, const cl::Buffer &To,
+                            uint64_t Words,
+                            const std::function<void(std::span<float>)> &Fill) {
+  if (!Failure && Words != 0)
+    checkCopy(What, "to",
+              mapped(To, CL_MAP_WRITE_INVALIDATE_REGION, Words, Fill));
+}
+
+void Launcher::readInPlace(
+    std::string_view What, const cl::Buffer &From, uint64_t Words,
+    const std::function<void(std::span<const float>)> &Use) {
+  if (!Failure && Words != 0)
+    checkCopy(What, "from", mapped(From, CL_MAP_READ, Words, Use));
 }
 
 } // namespace vorion::splat

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -125,6 +126,17 @@ public:
   void read(std::string_view What, void *To, const cl::Buffer &From,
             uint64_t Bytes, uint64_t Offset = 0);
 
+  /// \name The same where the device has the words: no second copy is made
+  /// @{
+  /// \p Fill writes the first \p Words of \p To, all of them.
+  void writeInPlace(std::string_view What, const cl::Buffer &To, uint64_t Words,
+                    const std::function<void(std::span<float>)> &Fill);
+  /// \p Use reads the first \p Words of \p From.
+  void readInPlace(std::string_view What, const cl::Buffer &From,
+                   uint64_t Words,
+                   const std::function<void(std::span<const float>)> &Use);
+  /// @}
+
   /// Most bytes of buffers made with \c allocate that were there at once.
   uint64_t mostBytes() const { return MostBytes; }
   const Device &device() const { return Dev; }
@@ -137,6 +149,11 @@ private:
   Error memoryError(std::string_view What, cl_int Status) const;
   Error launchError(const std::string &Name, cl_int Status) const;
   void account(KernelReport Report);
+  /// Maps \p Words of \p B for \p Flags while \p Use works with them.
+  cl_int mapped(const cl::Buffer &B, cl_map_flags Flags, uint64_t Words,
+                const std::function<void(std::span<float>)> &Use);
+  /// Keeps what the copy of \p What has ended with; \p Way is "to" or "from".
+  void checkCopy(std::string_view What, std::string_view Way, cl_int Status);
   void countCopy(uint64_t Bytes);
   void endStage();
   Expected<std::string> sourceOf(const ProgramSpec &Spec) const;

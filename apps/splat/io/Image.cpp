@@ -178,6 +178,7 @@ static Expected<Success> writePfmRows(const std::string &Path, const char *Kind,
   std::string Out = fmt::format("{}\n{} {}\n-1.0\n", Kind, Width, Height);
   const auto Rows = static_cast<std::size_t>(Height);
   const std::size_t Row = Pixels.size() / Rows;
+  Out.reserve(Out.size() + Pixels.size() * sizeof(float));
   for (std::size_t Y = Rows; Y-- > 0;)
     Out.append(reinterpret_cast<const char *>(&Pixels[Y * Row]),
                Row * sizeof(float));

@@ -32,12 +32,12 @@ Expected<Plane> planeForWebP(const std::string &Where, Bytes File,
     return Error{Where, fmt::format("{}x{} pixels in a file of {} bytes, "
                                     "expected at most {} bytes unpacked",
                                     P.Width, P.Height, File.size(), Limit)};
-  P.Rgba.resize(Size);
   return P;
 }
 
 Expected<Success> decodeWebPInto(const std::string &Where, Bytes File,
                                  Plane &P) {
+  P.Rgba.resize(4 * P.pixels());
   if (!WebPDecodeRGBAInto(dataOf(File), File.size(),
                           reinterpret_cast<uint8_t *>(P.Rgba.data()),
                           P.Rgba.size(), static_cast<int>(4 * P.Width)))

@@ -27,7 +27,7 @@ Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
 
 /// \name The same in two steps, of which the second may run in any thread
 /// @{
-/// The plane that \p File needs, of zeros.
+/// The plane that \p File needs, without bytes as yet.
 Expected<Plane> planeForWebP(const std::string &Where, Bytes File,
                              std::size_t Limit);
 /// Fills in \p P, which planeForWebP() gave for \p File.

@@ -44,30 +44,37 @@ std::vector<std::size_t> bandPlanes(const EffectPlan &Plan) {
   return Planes;
 }
 
-GaussianBuffers upload(Launcher &Launch, const Scene &S,
-                       const std::vector<float> &Geometry,
-                       const std::vector<float> &Sh) {
-  const GaussianBuffers B{
-      Launch.allocate("Gaussians' geometry", 4 * Geometry.size()),
-      Launch.allocate("Gaussians' colours", 4 * Sh.size()),
-      static_cast<uint32_t>(S.size()),
-      {}};
-  Launch.write("Gaussians", B.Geometry, Geometry.data(), 4 * Geometry.size());
-  Launch.write("colours", B.Sh, Sh.data(), 4 * Sh.size());
-  return B;
+/// Buffers for \p Geometry and \p Sh words of \p Count Gaussians.
+GaussianBuffers allocate(Launcher &Launch, std::size_t Count,
+                         std::size_t Geometry, std::size_t Sh) {
+  return {Launch.allocate("Gaussians' geometry", 4 * Geometry),
+          Launch.allocate("Gaussians' colours", 4 * Sh),
+          static_cast<uint32_t>(Count),
+          {}};
 }
 
 } // namespace
 
 GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
                                 int ShDegree) {
-  return upload(Launch, S, geometryPlanes(S), shPlanes(S, ShDegree));
+  const std::vector<float> Geometry = geometryPlanes(S),
+                           Sh = shPlanes(S, ShDegree);
+  GaussianBuffers B = allocate(Launch, S.size(), Geometry.size(), Sh.size());
+  Launch.write("Gaussians", B.Geometry, Geometry.data(), 4 * Geometry.size());
+  Launch.write("colours", B.Sh, Sh.data(), 4 * Sh.size());
+  return B;
 }
 
 GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
                                 const EffectPlan &Plan) {
-  GaussianBuffers B =
-      upload(Launch, S, geometryBlocks(S), shBlocks(S, bandPlanes(Plan)));
+  const std::vector<std::size_t> Planes = bandPlanes(Plan);
+  const std::size_t Geometry = blockWords(S.size(), GEOMETRY_PLANES),
+                    Sh = blockWords(S.size(), Planes.size());
+  GaussianBuffers B = allocate(Launch, S.size(), Geometry, Sh);
+  Launch.writeInPlace("Gaussians", B.Geometry, Geometry,
+                      [&](auto To) { writeGeometryBlocks(S, To); });
+  Launch.writeInPlace("colours", B.Sh, Sh,
+                      [&](auto To) { writeShBlocks(S, Planes, To); });
   if (Plan.done(effects::CullBlocks)) {
     const std::vector<float> Bounds = blockBounds(S);
     B.Bounds = Launch.allocate("bounds of blocks", 4 * Bounds.size());

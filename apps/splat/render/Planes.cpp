@@ -1,6 +1,7 @@
 #include "render/Planes.h"
 
 #include "picture/Layout.h"
+#include "vorion/support/Parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -35,24 +36,32 @@ std::vector<float> shPlanes(const Scene &S, int Degree) {
   return Out;
 }
 
+std::size_t blockWords(std::size_t Count, std::size_t Planes) {
+  return std::size_t{blocksOf(Count)} * Planes * LINE_WORDS;
+}
+
 namespace {
 
-/// Blocks of \p Planes parameters: plane p of Gaussian i is Get(i, p).
+/// Writes blocks of \p Planes parameters: plane p of Gaussian i is Get(i, p).
 template <typename Function>
-std::vector<float> toBlocks(std::size_t Count, std::size_t Planes,
-                            Function Get) {
-  std::vector<float> Words(std::size_t{blocksOf(Count)} * Planes * LINE_WORDS);
-  for (std::size_t I = 0; I < Count; ++I)
-    for (std::size_t P = 0; P < Planes; ++P)
-      Words[(I / LINE_WORDS * Planes + P) * LINE_WORDS + I % LINE_WORDS] =
-          Get(I, P);
-  return Words;
+void writeBlocks(std::size_t Count, std::size_t Planes, std::span<float> To,
+                 Function Get) {
+  // Blocks of a thread at a time: half a megabyte or more.
+  constexpr std::size_t Part = 1 << 12;
+  inParallelParts(
+      blocksOf(Count), Part, [&](std::size_t First, std::size_t End) {
+        for (std::size_t At = First * Planes; At < End * Planes; ++At)
+          for (std::size_t Lane = 0; Lane < LINE_WORDS; ++Lane) {
+            const std::size_t I = At / Planes * LINE_WORDS + Lane;
+            To[At * LINE_WORDS + Lane] = I < Count ? Get(I, At % Planes) : 0;
+          }
+      });
 }
 
 } // namespace
 
-std::vector<float> geometryBlocks(const Scene &S) {
-  return toBlocks(S.size(), GEOMETRY_PLANES, [&](std::size_t I, std::size_t P) {
+void writeGeometryBlocks(const Scene &S, std::span<float> To) {
+  writeBlocks(S.size(), GEOMETRY_PLANES, To, [&](std::size_t I, std::size_t P) {
     return P < PLANE_LOG_SCALE    ? S.Means[3 * I + P - PLANE_MEAN]
            : P < PLANE_QUATERNION ? S.LogScales[3 * I + P - PLANE_LOG_SCALE]
            : P < PLANE_LOGIT      ? S.Quats[4 * I + P - PLANE_QUATERNION]
@@ -60,10 +69,10 @@ std::vector<float> geometryBlocks(const Scene &S) {
   });
 }
 
-std::vector<float> shBlocks(const Scene &S,
-                            const std::vector<std::size_t> &Planes) {
+void writeShBlocks(const Scene &S, const std::vector<std::size_t> &Planes,
+                   std::span<float> To) {
   const std::size_t Stride = 3 * S.coefficients();
-  return toBlocks(S.size(), Planes.size(), [&](std::size_t I, std::size_t P) {
+  writeBlocks(S.size(), Planes.size(), To, [&](std::size_t I, std::size_t P) {
     return Planes[P] < Stride ? S.Sh[I * Stride + Planes[P]] : 0.0F;
   });
 }

@@ -5,6 +5,7 @@
 
 #include "scene/Scene.h"
 
+#include <span>
 #include <vector>
 
 namespace vorion::splat {
@@ -15,11 +16,16 @@ std::vector<float> geometryPlanes(const Scene &S);
 /// Plane 3 k + c holds coefficient k of channel c, up to \p Degree.
 std::vector<float> shPlanes(const Scene &S, int Degree);
 
-/// The same in blocks; of the colours' planes those of \p Planes, zeros where
-/// the scene has none.
-std::vector<float> geometryBlocks(const Scene &S);
-std::vector<float> shBlocks(const Scene &S,
-                            const std::vector<std::size_t> &Planes);
+/// Words of the blocks of \p Count Gaussians with \p Planes planes each.
+std::size_t blockWords(std::size_t Count, std::size_t Planes);
+
+/// Write the same in blocks to \p To, which has as many words as
+/// \c blockWords() says and may have been written never; of the colours' planes
+/// those of \p Planes, zeros where the scene has none. The last block's places
+/// without a Gaussian are zeros.
+void writeGeometryBlocks(const Scene &S, std::span<float> To);
+void writeShBlocks(const Scene &S, const std::vector<std::size_t> &Planes,
+                   std::span<float> To);
 
 /// What each block's Gaussians are bounded by, in layout.h's BOUND_PLANES. A
 /// block with a number that is none has an infinite radius.

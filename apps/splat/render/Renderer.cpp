@@ -58,15 +58,16 @@ Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
   Image I;
   I.Width = static_cast<int>(F.View.size[0]);
   I.Height = static_cast<int>(F.View.size[1]);
-  std::vector<float> Rgba(4 * std::size_t{F.pixels()});
-  Launch.read("picture", Rgba.data(), Picture, 4 * Rgba.size());
-  I.Render.resize(3 * std::size_t{F.pixels()});
-  I.Alpha.resize(F.pixels());
-  for (std::size_t P = 0; P < F.pixels(); ++P) {
-    for (std::size_t K = 0; K < 3; ++K)
-      I.Render[3 * P + K] = Rgba[4 * P + K];
-    I.Alpha[P] = Resolved ? Rgba[4 * P + 3] : 1 - Rgba[4 * P + 3];
-  }
+  const std::size_t Pixels = F.pixels();
+  I.Render.resize(3 * Pixels);
+  I.Alpha.resize(Pixels);
+  Launch.readInPlace("picture", Picture, 4 * Pixels, [&](auto Rgba) {
+    for (std::size_t P = 0; P < Pixels; ++P) {
+      for (std::size_t K = 0; K < 3; ++K)
+        I.Render[3 * P + K] = Rgba[4 * P + K];
+      I.Alpha[P] = Resolved ? Rgba[4 * P + 3] : 1 - Rgba[4 * P + 3];
+    }
+  });
   return I;
 }
 

@@ -55,11 +55,10 @@ std::size_t putInMortonOrder(Scene &S) {
   std::ranges::sort(Order, [&](std::size_t A, std::size_t B) {
     return std::pair(Places[A], A) < std::pair(Places[B], B);
   });
-  Scene Result;
-  Result.ShDegree = S.ShDegree;
+  Scene Result = Scene::sized(S.size(), S.ShDegree);
   std::size_t Moved = 0;
   for (std::size_t To = 0; To < Order.size(); ++To) {
-    append(Result, S, Order[To], 1);
+    copy(S, Order[To], 1, Result, To);
     Moved += Order[To] != To;
   }
   S = std::move(Result);

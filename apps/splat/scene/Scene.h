@@ -56,6 +56,11 @@ Expected<Success> checkFinite(const std::string &Where, const Scene &S);
 /// others, and gives how many there were.
 std::size_t dropNonFinite(Scene &S);
 
+/// Copies \p Count Gaussians of \p From, starting at \p First, over those of
+/// \p To that start at \p At; both of the same degree.
+void copy(const Scene &From, std::size_t First, std::size_t Count, Scene &To,
+          std::size_t At);
+
 /// Appends \p Count Gaussians of \p From, starting at \p First, to \p To; both
 /// of the same degree.
 void append(Scene &To, const Scene &From, std::size_t First, std::size_t Count);

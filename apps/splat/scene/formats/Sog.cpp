@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <deque>
 #include <fmt/format.h>
@@ -19,26 +20,26 @@
 #include <utility>
 
 namespace vorion::splat {
-namespace {
 
 using Json = nlohmann::json;
 
 /// A WebP's sides have 14 bits.
-constexpr std::size_t MostPixels = std::size_t(1) << 28;
+static constexpr std::size_t MostPixels = std::size_t(1) << 28;
 /// Entries of the SH palette in a row of its plane.
-constexpr std::size_t PaletteRow = 64;
-constexpr std::size_t CodebookSize = 256;
+static constexpr std::size_t PaletteRow = 64;
+static constexpr std::size_t CodebookSize = 256;
 
 /// Takes numbers and names out of meta.json and planes out of the data set.
 /// Once something is wrong, \c Problem says what, and nothing more is done.
-class Reader {
+class SogData::Reader {
 public:
-  Reader(const std::string &Where, const std::string &MetaWhere, Json Meta,
-         const FileSource &Read, const ReadOptions &Options)
-      : Where(Where), MetaWhere(MetaWhere), Read(Read),
+  Reader(std::string Where, std::string MetaWhere, Json Meta,
+         const ReadOptions &Options)
+      : Where(std::move(Where)), MetaWhere(std::move(MetaWhere)),
         NullIsNaN(Options.DropNonFinite), Root(std::move(Meta)) {}
 
-  Expected<SceneFile> read() {
+  /// Reads the description and the pictures that it names.
+  Expected<Success> describe(const FileSource &Source) {
     if (!Root.is_object())
       return metaError("not a JSON object, expected SOG's description");
     if (!isDescription(Root))
@@ -59,67 +60,47 @@ public:
     if (!DrawnAs)
       return DrawnAs.error();
 
-    // Every plane is there before the scene is made, so that its size is
-    // bounded by the pictures' and not by what the description says.
-    const Plane &Low = plane("means", 0), &High = plane("means", 1);
-    const auto Mins = numbers("means", "mins", 3),
-               Maxs = numbers("means", "maxs", 3);
-    const Plane &Quats = plane("quats", 0), &Scales = plane("scales", 0),
-                &Colors = plane("sh0", 0);
-    const std::vector<Book> ScaleBooks = books("scales", 3),
-                            ColorBooks = books("sh0", IsFirst ? 4 : 3);
-    Palette Later;
+    // Every plane is there before a scene is made, so that its size is bounded
+    // by the pictures' and not by what the description says.
+    Read = &Source;
+    LowMeans = &plane("means", 0);
+    HighMeans = &plane("means", 1);
+    LeastMeans = numbers("means", "mins", 3);
+    MostMeans = numbers("means", "maxs", 3);
+    QuatPlane = &plane("quats", 0);
+    ScalePlane = &plane("scales", 0);
+    ColorPlane = &plane("sh0", 0);
+    ScaleBooks = books("scales", 3);
+    ColorBooks = books("sh0", IsFirst ? 4 : 3);
     if (Root.contains("shN"))
-      Later = palette();
+      Harmonics = palette();
     if (!Problem)
       decodePictures();
     if (Problem)
       return *Problem;
+    Head.Format = SceneFormat::Sog;
+    Head.Version = IsFirst ? 1 : 2;
+    Head.DrawnAs = std::move(*DrawnAs);
+    Head.Gaussians.ShDegree = Harmonics.Degree;
+    return Success{};
+  }
 
-    SceneFile Result;
-    Result.Format = SceneFormat::Sog;
-    Result.Version = IsFirst ? 1 : 2;
-    Result.DrawnAs = std::move(*DrawnAs);
-    Scene &S = Result.Gaussians = Scene::sized(Count, Later.Degree);
-    const std::size_t ShEach = 3 * S.coefficients();
-    // Gaussians First to End; what is wrong with the first bad one.
-    const auto Unpack = [&](std::size_t First,
-                            std::size_t End) -> Expected<Success> {
-      for (std::size_t I = First; I < End; ++I) {
-        for (std::size_t A = 0; A < 3; ++A) {
-          S.Means[3 * I + A] = position(lerp(
-              Mins[A], Maxs[A], (Low.at(I, A) | High.at(I, A) << 8) / 65535.0));
-          S.LogScales[3 * I + A] =
-              static_cast<float>(ScaleBooks[A][Scales.at(I, A)]);
-          S.Sh[ShEach * I + A] =
-              static_cast<float>(ColorBooks[A][Colors.at(I, A)]);
-        }
-        S.OpacityLogits[I] =
-            IsFirst ? static_cast<float>(ColorBooks[3][Colors.at(I, 3)])
-                    : byteOpacityLogits()[Colors.at(I, 3)];
-        if (!unpackQuat(Quats, I, &S.Quats[4 * I]))
-          return Error{file("quats", 0),
-                       fmt::format("rotation {} has the mark {}, expected 252 "
-                                   "to 255",
-                                   I, Quats.at(I, 3))};
-        if (Later.Degree > 0 && !Later.copy(I, &S.Sh[ShEach * I + 3]))
-          return Error{file("shN", 1),
-                       fmt::format("Gaussian {} has palette entry {}, expected "
-                                   "less than {}",
-                                   I, Later.label(I), Later.Entries)};
-      }
-      return Success{};
-    };
+  /// Writes the Gaussians to \p S, the first of them as its \p At-th.
+  Expected<Success> unpack(Scene &S, std::size_t At) {
     constexpr std::size_t Part = 1 << 14;
     std::vector<Expected<Success>> Parts(Count / Part + 1, Success{});
     inParallelParts(Count, Part, [&](std::size_t First, std::size_t End) {
-      Parts[First / Part] = Unpack(First, End);
+      Parts[First / Part] = unpack(S, At, First, End);
     });
+    Pictures.clear();
     for (const auto &Done : Parts)
       if (!Done)
         return Done.error();
-    return Result;
+    return Success{};
   }
+
+  std::size_t Count = 0;
+  SceneFile Head; ///< without Gaussians
 
 private:
   /// Whether \p Root, an object, may be SOG's: it has one of the groups at
@@ -128,6 +109,39 @@ private:
     return std::ranges::any_of(
         std::array{"means", "scales", "quats", "sh0"},
         [&](const char *Group) { return Root.contains(Group); });
+  }
+
+  /// Gaussians \p First to \p End of the data set to \p At and what follows in
+  /// \p S; what is wrong with the first bad one.
+  Expected<Success> unpack(Scene &S, std::size_t At, std::size_t First,
+                           std::size_t End) const {
+    const std::size_t ShEach = 3 * S.coefficients();
+    for (std::size_t I = First; I < End; ++I) {
+      const std::size_t To = At + I;
+      for (std::size_t A = 0; A < 3; ++A) {
+        S.Means[3 * To + A] = position(
+            lerp(LeastMeans[A], MostMeans[A],
+                 (LowMeans->at(I, A) | HighMeans->at(I, A) << 8) / 65535.0));
+        S.LogScales[3 * To + A] =
+            static_cast<float>(ScaleBooks[A][ScalePlane->at(I, A)]);
+        S.Sh[ShEach * To + A] =
+            static_cast<float>(ColorBooks[A][ColorPlane->at(I, A)]);
+      }
+      S.OpacityLogits[To] =
+          IsFirst ? static_cast<float>(ColorBooks[3][ColorPlane->at(I, 3)])
+                  : byteOpacityLogits()[ColorPlane->at(I, 3)];
+      if (!unpackQuat(*QuatPlane, I, &S.Quats[4 * To]))
+        return Error{file("quats", 0),
+                     fmt::format("rotation {} has the mark {}, expected 252 "
+                                 "to 255",
+                                 I, QuatPlane->at(I, 3))};
+      if (Harmonics.Degree > 0 && !Harmonics.copy(I, &S.Sh[ShEach * To + 3]))
+        return Error{file("shN", 1),
+                     fmt::format("Gaussian {} has palette entry {}, expected "
+                                 "less than {}",
+                                 I, Harmonics.label(I), Harmonics.Entries)};
+    }
+    return Success{};
   }
 
   /// What the 256 bytes stand for.
@@ -291,7 +305,7 @@ private:
                                  Group, Index + 1)));
       return None;
     }
-    auto Content = Read(Files[Index].get<std::string>());
+    auto Content = (*Read)(Files[Index].get<std::string>());
     if (!Content) {
       fail(Content.error());
       return None;
@@ -307,7 +321,7 @@ private:
       fail(P.error());
       return None;
     }
-    Unpacked += P->Rgba.size();
+    Unpacked += 4 * P->pixels();
     Pictures.push_back(
         {file(Group, Index), std::move(*Content), std::move(*P)});
     return Pictures.back().Pixels;
@@ -408,12 +422,16 @@ private:
                             (P.Entries % PaletteRow != 0 ? 1 : 0))});
   }
 
-  const std::string &Where, &MetaWhere;
-  const FileSource &Read;
-  bool NullIsNaN; ///< in a codebook; an error else
+  std::string Where, MetaWhere;
+  const FileSource *Read = nullptr; ///< while the description is read
+  bool NullIsNaN;                   ///< in a codebook; an error else
   Json Root;
   bool IsFirst = false; ///< of version 1
-  std::size_t Count = 0;
+  const Plane *LowMeans = nullptr, *HighMeans = nullptr, *QuatPlane = nullptr,
+              *ScalePlane = nullptr, *ColorPlane = nullptr;
+  std::vector<double> LeastMeans, MostMeans;
+  std::vector<Book> ScaleBooks, ColorBooks;
+  Palette Harmonics;
   struct Picture {
     std::string Where;
     std::vector<std::byte> File;
@@ -427,15 +445,44 @@ private:
   std::optional<Error> Problem;
 };
 
-} // namespace
+SogData::SogData(std::unique_ptr<Reader> TheReader)
+    : Own(std::move(TheReader)) {}
+SogData::SogData(SogData &&) noexcept = default;
+SogData::~SogData() = default;
+
+Expected<SogData> SogData::open(const std::string &Where,
+                                const std::string &MetaWhere, Bytes Meta,
+                                const FileSource &Read,
+                                const ReadOptions &Options) {
+  auto Root = parseJson<Json>(asText(Meta), MetaWhere, "SOG's description");
+  if (!Root)
+    return Root.error();
+  auto R =
+      std::make_unique<Reader>(Where, MetaWhere, std::move(*Root), Options);
+  if (const auto Described = R->describe(Read); !Described)
+    return Described.error();
+  return SogData(std::move(R));
+}
+
+std::size_t SogData::size() const { return Own->Count; }
+const SceneFile &SogData::head() const { return Own->Head; }
+Expected<Success> SogData::unpack(Scene &To, std::size_t At) {
+  assert(To.ShDegree == head().Gaussians.ShDegree && At + size() <= To.size());
+  return Own->unpack(To, At);
+}
 
 Expected<SceneFile> parseSogData(const std::string &Where,
                                  const std::string &MetaWhere, Bytes Meta,
                                  const FileSource &Read,
                                  const ReadOptions &Options) {
-  auto Root = parseJson<Json>(asText(Meta), MetaWhere, "SOG's description");
-  return Root ? Reader(Where, MetaWhere, std::move(*Root), Read, Options).read()
-              : Expected<SceneFile>(Root.error());
+  auto Data = SogData::open(Where, MetaWhere, Meta, Read, Options);
+  if (!Data)
+    return Data.error();
+  SceneFile Result = Data->head();
+  Result.Gaussians = Scene::sized(Data->size(), Result.Gaussians.ShDegree);
+  if (const auto Unpacked = Data->unpack(Result.Gaussians, 0); !Unpacked)
+    return Unpacked.error();
+  return Result;
 }
 
 bool isSog(Bytes File) { return isZip(File); }

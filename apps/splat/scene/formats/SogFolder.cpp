@@ -5,6 +5,7 @@
 #include "vorion/support/Json.h"
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
@@ -50,62 +51,117 @@ FileSource withoutRepeats(const std::string &Where, const FileSource &Read) {
 }
 
 /// The data set whose description is \p Meta, a path from where \p Read starts.
-Expected<SceneFile> readDataSet(const std::string &Where,
-                                const std::string &Meta, const FileSource &Read,
-                                const ReadOptions &Options) {
+Expected<SogData> openDataSet(const std::string &Where, const std::string &Meta,
+                              const FileSource &Read,
+                              const ReadOptions &Options) {
   const auto Content = Read(Meta);
   if (!Content)
     return Content.error();
   const fs::path Folder = fs::path(Meta).parent_path();
   const std::string Inside =
       Folder.empty() ? Where : Where + "/" + printable(Folder.string());
-  return parseSogData(
+  return SogData::open(
       Inside, Inside + ": " + MetaName, *Content,
       [&](const std::string &Name) { return Read((Folder / Name).string()); },
       Options);
 }
 
-/// Joins data sets of one scene.
+/// Gaussians \p Offset to \p Offset + \p Count of a data set.
+struct Run {
+  uint64_t Offset = 0, Count = 0;
+};
+
+/// Joins data sets of one scene. Their Gaussians are written when all are
+/// known, each to its place: a scene of many megabytes is in memory once.
 class Joiner {
 public:
   explicit Joiner(const ReadOptions &Options) : Options(Options) {}
 
-  /// Appends Gaussians \p First to \p First + \p Count of \p Part.
-  Expected<Success> add(const std::string &Where, const SceneFile &Part,
-                        std::size_t First, std::size_t Count) {
-    if (Result.Files == 0) {
-      Result.Version = Part.Version;
-      Result.Gaussians.ShDegree = Part.Gaussians.ShDegree;
-      Result.DrawnAs = Part.DrawnAs;
+  /// Takes \p Runs of \p Data.
+  Expected<Success> add(const std::string &Where, SogData Data,
+                        std::vector<Run> Runs) {
+    const SceneFile &Head = Data.head();
+    if (Parts.empty()) {
+      Result.Version = Head.Version;
+      Result.Gaussians.ShDegree = Head.Gaussians.ShDegree;
+      Result.DrawnAs = Head.DrawnAs;
     }
-    if (!Options.Drawn.Antialiased && !Part.DrawnAs.drawsAs(Result.DrawnAs))
+    if (!Options.Drawn.Antialiased && !Head.DrawnAs.drawsAs(Result.DrawnAs))
       return Error{
           Where, fmt::format("{}, expected {} as in the first chunk, or "
                              "--antialiased or --no-antialiased to decide",
-                             sourceOf(Part.DrawnAs), sourceOf(Result.DrawnAs))};
-    if (Result.Gaussians.ShDegree != Part.Gaussians.ShDegree)
+                             sourceOf(Head.DrawnAs), sourceOf(Result.DrawnAs))};
+    if (Result.Gaussians.ShDegree != Head.Gaussians.ShDegree)
       return Error{Where, fmt::format("SH degree {}, expected {} as in the "
                                       "first chunk",
-                                      Part.Gaussians.ShDegree,
+                                      Head.Gaussians.ShDegree,
                                       Result.Gaussians.ShDegree)};
-    append(Result.Gaussians, Part.Gaussians, First, Count);
+    std::ranges::sort(Runs, {}, &Run::Offset);
+    const uint64_t Size = Data.size();
+    uint64_t End = 0, Count = 0;
+    for (const Run &R : Runs) {
+      if (R.Offset < End || R.Offset > Size || R.Count > Size - R.Offset)
+        return Error{Where, fmt::format("Gaussians {} to {} + {} of {} are "
+                                        "listed, expected runs apart from each "
+                                        "other inside the chunk",
+                                        R.Offset, R.Offset, R.Count, Size)};
+      End = R.Offset + R.Count;
+      Count += R.Count;
+    }
+    Total += Count;
+    Parts.push_back({std::move(Data), std::move(Runs), Count});
     return Success{};
   }
 
-  Expected<Success> addFile(const std::string &Where, const SceneFile &Part) {
-    auto Added = add(Where, Part, 0, Part.Gaussians.size());
-    ++Result.Files;
-    return Added;
+  /// Takes all of \p Data.
+  Expected<Success> add(const std::string &Where, SogData Data) {
+    const uint64_t Size = Data.size();
+    return add(Where, std::move(Data), {{0, Size}});
   }
 
-  SceneFile Result{{}, SceneFormat::StreamedSog, 0, {}, 0, {}, 0};
+  /// The scene.
+  Expected<SceneFile> join() {
+    Scene &S = Result.Gaussians;
+    S = Scene::sized(Total, S.ShDegree);
+    Result.Files = Parts.size();
+    std::size_t At = 0;
+    for (; !Parts.empty(); Parts.pop_front()) {
+      Part &P = Parts.front();
+      if (auto Placed = place(P, At); !Placed)
+        return Placed.error();
+      At += P.Count;
+    }
+    return std::move(Result);
+  }
 
 private:
+  struct Part {
+    SogData Data;
+    std::vector<Run> Runs; ///< by their offsets
+    uint64_t Count;        ///< Gaussians of all of them
+  };
+
+  Expected<Success> place(Part &P, std::size_t At) {
+    if (P.Count == P.Data.size())
+      return P.Data.unpack(Result.Gaussians, At);
+    Scene Whole = Scene::sized(P.Data.size(), Result.Gaussians.ShDegree);
+    if (auto Unpacked = P.Data.unpack(Whole, 0); !Unpacked)
+      return Unpacked;
+    for (const Run &R : P.Runs) {
+      copy(Whole, R.Offset, R.Count, Result.Gaussians, At);
+      At += R.Count;
+    }
+    return Success{};
+  }
+
   static std::string sourceOf(const Drawing &D) {
     return D.Source.empty() ? "no model" : D.Source;
   }
 
   const ReadOptions &Options;
+  SceneFile Result{{}, SceneFormat::StreamedSog, 0, {}, 0, {}, 0};
+  std::deque<Part> Parts;
+  std::size_t Total = 0;
 };
 
 /// Sub-folders of \p Path that hold a data set, by name.
@@ -139,20 +195,16 @@ Expected<SceneFile> readChunks(const std::string &Path,
   Joiner J(Options);
   const FileSource Files = filesOf(Path), Read = withoutRepeats(Path, Files);
   for (const std::string &Name : Names) {
-    const auto Part =
-        readDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read, Options);
-    if (!Part)
-      return Part.error();
-    if (auto Added = J.addFile(fmt::format("{}/{}", Path, Name), *Part); !Added)
+    auto Data =
+        openDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read, Options);
+    if (!Data)
+      return Data.error();
+    if (auto Added = J.add(fmt::format("{}/{}", Path, Name), std::move(*Data));
+        !Added)
       return Added.error();
   }
-  return std::move(J.Result);
+  return J.join();
 }
-
-/// Gaussians \p Offset to \p Offset + \p Count of a chunk.
-struct Run {
-  uint64_t Offset = 0, Count = 0;
-};
 
 /// The runs of one level of detail, by chunk, from the tree of an index. The
 /// tree is walked without recursion: a damaged file may nest it deeply.
@@ -213,27 +265,6 @@ private:
   std::vector<const Json *> Pending;
 };
 
-/// Appends \p Runs of \p Part.
-Expected<Success> addRuns(Joiner &J, const std::string &Where,
-                          const SceneFile &Part, std::vector<Run> Runs) {
-  std::sort(Runs.begin(), Runs.end(),
-            [](const Run &A, const Run &B) { return A.Offset < B.Offset; });
-  const uint64_t Size = Part.Gaussians.size();
-  uint64_t End = 0;
-  for (const Run &R : Runs) {
-    if (R.Offset < End || R.Offset > Size || R.Count > Size - R.Offset)
-      return Error{Where, fmt::format("Gaussians {} to {} + {} of {} are "
-                                      "listed, expected runs apart from each "
-                                      "other inside the chunk",
-                                      R.Offset, R.Offset, R.Count, Size)};
-    End = R.Offset + R.Count;
-    if (auto Added = J.add(Where, Part, R.Offset, R.Count); !Added)
-      return Added;
-  }
-  ++J.Result.Files;
-  return Success{};
-}
-
 Expected<Success> checkIndex(const std::string &Where, const Json &Index,
                              const ReadOptions &Options) {
   if (!Index.is_object())
@@ -281,23 +312,23 @@ Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
   Joiner J(Options);
   for (auto &[File, Runs] : Tree.Runs) {
     const auto Name = Index["filenames"][File].get<std::string>();
-    const auto Part = readDataSet(Where, Name, Read, Options);
-    if (!Part)
-      return Part.error();
-    if (auto Added =
-            addRuns(J, Where + ": " + printable(Name), *Part, std::move(Runs));
+    auto Data = openDataSet(Where, Name, Read, Options);
+    if (!Data)
+      return Data.error();
+    if (auto Added = J.add(Where + ": " + printable(Name), std::move(*Data),
+                           std::move(Runs));
         !Added)
       return Added.error();
   }
   if (const auto E = Index.find("environment");
       E != Index.end() && E->is_string()) {
-    const auto Part = readDataSet(Where, E->get<std::string>(), Read, Options);
-    if (!Part)
-      return Part.error();
-    if (auto Added = J.addFile(Where + ": environment", *Part); !Added)
+    auto Data = openDataSet(Where, E->get<std::string>(), Read, Options);
+    if (!Data)
+      return Data.error();
+    if (auto Added = J.add(Where + ": environment", std::move(*Data)); !Added)
       return Added.error();
   }
-  return std::move(J.Result);
+  return J.join();
 }
 
 Expected<SceneFile> readSogFolder(const std::string &Path,

@@ -83,6 +83,39 @@ TEST(SogFolder, AStreamedSceneIsOneLevelAndTheEnvironment) {
   EXPECT_NE(None.error().What.find("no level of detail 2"), std::string::npos);
 }
 
+// An index may list parts of a chunk, and need not list them in order.
+TEST(SogFolder, RunsOfAChunkAreTakenInTheirOrderThere) {
+  const TestFolder Root;
+  const Scene A = randomScene(9, 1, 2), B = randomScene(5, 1, 3);
+  Folder Files;
+  for (const auto &[Name, Content] : sogOf(A))
+    Files["a/" + Name] = Content;
+  for (const auto &[Name, Content] : sogOf(B))
+    Files["b/" + Name] = Content;
+  const auto Leaf = [](int File, int Offset, int Count) {
+    return Json{
+        {"lods",
+         {{"0", {{"file", File}, {"offset", Offset}, {"count", Count}}}}}};
+  };
+  Files["lod-meta.json"] = Json{
+      {"version", 1},
+      {"lodLevels", 1},
+      {"filenames", {"a/meta.json", "b/meta.json"}},
+      {"tree",
+       {{"children",
+         {Leaf(0, 6, 2), Leaf(1, 2, 3), Leaf(0, 1, 4),
+          Leaf(1, 0, 2)}}}}}.dump();
+  Scene Expected;
+  Expected.ShDegree = 1;
+  append(Expected, A, 1, 4);
+  append(Expected, A, 6, 2);
+  append(Expected, B, 0, 5);
+  const SceneFile Read = read(written(Root, "s", Files));
+  EXPECT_EQ(Read.Files, 2U);
+  ASSERT_EQ(Read.Gaussians.size(), 11U);
+  expectNear(Read.Gaussians, Expected);
+}
+
 /// What \p Change makes of each chunk's description.
 Folder
 withChunks(Folder Files,

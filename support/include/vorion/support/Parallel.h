@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -13,20 +15,32 @@ namespace vorion {
 
 /// Calls \p Work(I) once for each I below \p Count, on one thread a processor,
 /// of which the caller's is one. The calls must not depend on each other, or
-/// the result would depend on the host. (reference/ has a loop of its own,
-/// because it uses nothing of ours.)
+/// the result would depend on the host. If some of them throw, one of their
+/// exceptions is the caller's, and calls that had not begun then are left out.
+/// (reference/ has a loop of its own, because it uses nothing of ours.)
 template <typename Function>
 void inParallel(std::size_t Count, const Function &Work) {
   std::atomic<std::size_t> Next = 0;
+  std::once_flag Once;
+  std::exception_ptr First;
   const auto Share = [&] {
-    for (std::size_t I = Next++; I < Count; I = Next++)
-      Work(I);
+    try {
+      for (std::size_t I = Next++; I < Count; I = Next++)
+        Work(I);
+    } catch (...) {
+      std::call_once(Once, [&] { First = std::current_exception(); });
+      Next = Count;
+    }
   };
   const std::size_t Threads = std::min<std::size_t>(Count, hostProcessors());
-  std::vector<std::jthread> Others;
-  for (std::size_t T = 1; T < Threads; ++T)
-    Others.emplace_back(Share);
-  Share();
+  {
+    std::vector<std::jthread> Others;
+    for (std::size_t T = 1; T < Threads; ++T)
+      Others.emplace_back(Share);
+    Share();
+  }
+  if (First)
+    std::rethrow_exception(First);
 }
 
 /// The same for parts of at most \p Each consecutive numbers:
