@@ -23,12 +23,6 @@ Lanes16 bitsOf(uint32_t Mask) {
   return V;
 }
 
-Lanes16 all(uint32_t Value) {
-  Lanes16 V;
-  V.fill(Value);
-  return V;
-}
-
 uint32_t addi(unsigned Rd, unsigned Rs1, int32_t Imm) {
   return encode(Op::RV_ADDI, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
 }

@@ -17,6 +17,12 @@ namespace vorion::isasim::testing {
 
 using Lanes16 = std::array<uint32_t, MaxLanes>;
 
+inline Lanes16 all(uint32_t Value) {
+  Lanes16 Lanes;
+  Lanes.fill(Value);
+  return Lanes;
+}
+
 class WarpRunner {
 public:
   WarpRunner(const ExecTable &Table, const std::vector<uint32_t> &Words,
@@ -50,10 +56,12 @@ public:
   /// Runs until the warp stops: at the end of the code, which is a fetch
   /// fault, unless something comes first.
   void run(uint32_t Quantum = 1000) { Only.runRound(Exec, Quantum); }
-  /// What the warp waits for happens, unless it is wrong.
-  void completeAtomic() {
-    if (amoNow(&warp(), warp().Next, amoKind(warp().Next)))
-      Core::complete(warp());
+  /// The atomic that the warp waits for executes; false if it traps.
+  bool completeAtomic() {
+    if (!amoNow(&warp(), warp().Next, amoKind(warp().Next)))
+      return false;
+    Core::complete(warp());
+    return true;
   }
   /// Starts again at the first instruction; registers stay.
   void rewind() {

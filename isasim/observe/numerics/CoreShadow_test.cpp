@@ -14,11 +14,6 @@ constexpr unsigned AllLanes = 16;
 constexpr int32_t Scratch = 0; // offset from x10, which holds VX_GLOBAL_BASE
 
 uint32_t bits(float F) { return std::bit_cast<uint32_t>(F); }
-Lanes16 all(uint32_t Word) {
-  Lanes16 L;
-  L.fill(Word);
-  return L;
-}
 
 /// A warp under the sanitizer; instruction N's counts are at(N).
 struct Shadowed {
