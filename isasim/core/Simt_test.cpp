@@ -1,5 +1,6 @@
 /// XVortex and control flow on every vector level.
 
+#include "testing/Instructions.h"
 #include "testing/WarpRunner.h"
 
 #include <random>
@@ -21,10 +22,6 @@ Lanes16 bitsOf(uint32_t Mask) {
   for (uint32_t L = 0; L != MaxLanes; ++L)
     V[L] = Mask >> L & 1;
   return V;
-}
-
-uint32_t addi(unsigned Rd, unsigned Rs1, int32_t Imm) {
-  return encode(Op::RV_ADDI, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
 }
 
 } // namespace

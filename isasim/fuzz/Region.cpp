@@ -88,8 +88,7 @@ std::shared_ptr<const Image> counting(int32_t More) {
                 csrw(Csr::GTag, 10), csrw(Csr::Push, 0), lui(13, 0x80000),
                 addi(13, 13, 8), csrw(Csr::TileShape, 13),
                 addi(13, 0, raster::ModeDrain.put(1)), csrw(Csr::Mode, 13),
-                csrw(Csr::Start, 0),
-                csrr(14, static_cast<unsigned>(Csr::Wait))})});
+                csrw(Csr::Start, 0), csrr(14, Csr::Wait)})});
   O.Segments.push_back({Data, PF_R | PF_W, {7}, 20});
   const auto Program = Image::parse(buildElf(O), "counting");
   require(bool(Program));

@@ -1,13 +1,10 @@
 /// A run that has a limit ends, whatever the program does.
 
+#include "machine/MachineTest.h"
 #include "raster/RasterTables.h"
-#include "testing/ElfBuilder.h"
-#include "testing/Encode.h"
-#include "vorion/isasim/Machine.h"
 
-#include <bit>
 #include <chrono>
-#include <cstring>
+#include <functional>
 #include <limits>
 
 using namespace vorion;
@@ -35,13 +32,6 @@ std::vector<uint32_t> start() {
   return Words;
 }
 
-Config small() {
-  Config C;
-  C.GlobalBytes = 1 << 20;
-  C.HostThreads = 1;
-  return C;
-}
-
 struct Ended {
   RunResult Result;
   double Seconds;
@@ -50,13 +40,11 @@ struct Ended {
 Ended runOf(
     const Config &C, const std::vector<uint32_t> &Words, double Watchdog = 0,
     const std::function<void(Machine &)> &Prepare = [](Machine &) {}) {
-  auto M = Machine::create(C);
-  EXPECT_TRUE(M) << M.error().What;
-  (*M)->load(codeImage(Words));
-  (*M)->setWatchdog(Watchdog);
-  Prepare(**M);
+  const auto M = machineFor(C, Words);
+  M->setWatchdog(Watchdog);
+  Prepare(*M);
   const auto Begin = std::chrono::steady_clock::now();
-  Ended E{(*M)->run(), 0};
+  Ended E{M->run(), 0};
   E.Seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - Begin)
           .count();
@@ -73,16 +61,16 @@ TEST(Limits, JoinsWithoutABranch) {
   // on again: nested, the joins go through 2^40 sides.
   std::vector<uint32_t> Words = start();
   constexpr unsigned Depth = 40;
-  Words.push_back(encode(Op::RV_CSRRS, {.Rd = 6, .Csr = CSR_THREAD_ID}));
+  Words.push_back(csrr(6, CSR_THREAD_ID));
   for (unsigned N = 0; N != Depth; ++N) {
     Words.push_back(encode(Op::VX_SPLIT, {.Rd = 7, .Rs1 = 6}));
     Words.push_back(encode(Op::VX_TMC, {.Rs1 = AllLanes}));
   }
-  Words.push_back(encode(Op::RV_ADDI, {.Rd = 8, .Imm = Depth + 1}));
+  Words.push_back(addi(8, 0, Depth + 1));
   for (unsigned N = 0; N != Depth; ++N)
     Words.push_back(encode(Op::VX_JOIN, {.Rs1 = 8}));
   Words.push_back(encode(Op::VX_TMC, {.Rs1 = 0}));
-  Config C = small();
+  Config C = smallConfig();
   C.DivergenceDepth = 64;
   C.MaxInstructions = 100000;
   const Ended Counted = runOf(C, Words);
@@ -100,10 +88,10 @@ TEST(Limits, WarpsThatStartEachOther) {
   // Every warp starts those that have ended, and ends.
   std::vector<uint32_t> Words;
   loadConstant(Words, 6, VX_IMAGE_BASE);
-  Words.push_back(encode(Op::RV_ADDI, {.Rd = 7, .Imm = 4}));
+  Words.push_back(addi(7, 0, 4));
   Words.push_back(encode(Op::VX_WSPAWN, {.Rs1 = 7, .Rs2 = 6}));
   Words.push_back(encode(Op::VX_TMC, {.Rs1 = 0}));
-  Config C = small();
+  Config C = smallConfig();
   C.WarpsPerCore = 4;
   C.MaxInstructions = 100000;
   EXPECT_EQ(runOf(C, Words).Result.End, Outcome::LimitReached);
@@ -115,9 +103,9 @@ TEST(Limits, WarpsThatStartEachOther) {
 
 TEST(Limits, WatchdogWithinATurn) {
   std::vector<uint32_t> Words = start();
-  Words.push_back(encode(Op::RV_ADDI, {.Rd = 6, .Rs1 = 6, .Imm = 1}));
+  Words.push_back(addi(6, 6, 1));
   Words.push_back(encode(Op::RV_JAL, {.Rd = 0, .Imm = -4}));
-  Config C = small();
+  Config C = smallConfig();
   C.Quantum = 1 << 30; // the longest
   const Ended E = runOf(C, Words, 0.05);
   EXPECT_EQ(E.Result.End, Outcome::LimitReached);
@@ -134,8 +122,7 @@ TEST(Limits, WatchdogWithinARasterizer) {
   std::vector<uint32_t> Words = start();
   const auto Write = [&](raster::Csr Csr, uint32_t Value) {
     loadConstant(Words, 6, Value);
-    Words.push_back(
-        encode(Op::RV_CSRRW, {.Rs1 = 6, .Csr = static_cast<unsigned>(Csr)}));
+    Words.push_back(csrw(Csr, 6));
   };
   Write(raster::Csr::Gaussians, VX_GLOBAL_BASE);
   Write(raster::Csr::List, List);
@@ -146,11 +133,9 @@ TEST(Limits, WatchdogWithinARasterizer) {
   Write(raster::Csr::OutputPitch, 64 * 16);
   for (unsigned N = 0; N != Queue; ++N)
     Write(raster::Csr::Start, 1);
-  Words.push_back(
-      encode(Op::RV_CSRRS,
-             {.Rd = 6, .Csr = static_cast<unsigned>(raster::Csr::Wait)}));
+  Words.push_back(csrr(6, raster::Csr::Wait));
   Words.push_back(encode(Op::VX_TMC, {.Rs1 = 0}));
-  Config C = small();
+  Config C = smallConfig();
   C.GlobalBytes = 0x100000 + 4ULL * raster::VR_MAX_COUNT;
   const Ended E = runOf(C, Words, 0.05, [](Machine &M) {
     raster::Gaussian G{};
@@ -165,10 +150,21 @@ TEST(Limits, AWatchdogOfTheLastRunStopsNothing) {
   // Commands of the host, after the time is long over.
   std::vector<uint32_t> Words = start();
   Words.push_back(encode(Op::RV_JAL, {.Rd = 0, .Imm = 0}));
-  auto M = Machine::create(small());
-  ASSERT_TRUE(M) << M.error().What;
-  (*M)->load(codeImage(Words));
-  (*M)->setWatchdog(0.01);
-  (*M)->run();
-  EXPECT_FALSE((*M)->mustStop());
+  const auto M = machineFor(smallConfig(), Words);
+  M->setWatchdog(0.01);
+  EXPECT_EQ(M->run().End, Outcome::LimitReached);
+  EXPECT_FALSE(M->mustStop());
+}
+
+TEST(Machine, LimitEndsARun) {
+  Config C = smallConfig();
+  C.MaxInstructions = 5000;
+  const auto M =
+      machineFor(C, {addi(5, 5, 1), encode(Op::RV_JAL, {.Rd = 0, .Imm = -4})});
+  const RunResult R = M->run();
+  EXPECT_EQ(R.End, Outcome::LimitReached);
+  EXPECT_GE(R.Total.WarpInstructions, 5000U);
+  // At most the limit again for each core.
+  EXPECT_LE(R.Total.WarpInstructions, 8 * 5002U);
+  EXPECT_NE(R.Report.find("0x80000000"), std::string::npos) << R.Report;
 }

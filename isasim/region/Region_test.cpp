@@ -24,9 +24,8 @@ std::shared_ptr<const Image> sums(int32_t More) {
   ElfOptions O;
   O.Segments.push_back(
       {VX_IMAGE_BASE, PF_R | PF_X,
-       program({lw(10, 0, 7), csrr(11, static_cast<unsigned>(Csr)),
-                lui(12, Data), lw(13, 0, 12), lui(14, VX_STACK_TOP - 0x1000),
-                lw(15, 0, 14),
+       program({lw(10, 0, 7), csrr(11, Csr), lui(12, Data), lw(13, 0, 12),
+                lui(14, VX_STACK_TOP - 0x1000), lw(15, 0, 14),
                 encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
                 encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 13}),
                 encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 15}),

@@ -3,7 +3,7 @@
 
 #include "raster/RasterTables.h"
 #include "testing/ElfBuilder.h"
-#include "testing/Encode.h"
+#include "testing/Instructions.h"
 #include "vorion/isasim/Machine.h"
 
 #include <numeric>
@@ -11,27 +11,6 @@
 namespace vorion::isasim::testing {
 
 using Words = std::vector<uint32_t>;
-
-inline uint32_t addi(unsigned Rd, unsigned Rs1, int32_t Imm) {
-  return encode(Op::RV_ADDI, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
-}
-inline uint32_t lui(unsigned Rd, uint32_t Address) {
-  return encode(Op::RV_LUI,
-                {.Rd = Rd, .Imm = static_cast<int32_t>(Address >> 12)});
-}
-inline uint32_t csrr(unsigned Rd, unsigned Csr) {
-  return encode(Op::RV_CSRRS, {.Rd = Rd, .Rs1 = 0, .Csr = Csr});
-}
-inline uint32_t csrw(raster::Csr C, unsigned Rs1) {
-  return encode(Op::RV_CSRRW,
-                {.Rd = 0, .Rs1 = Rs1, .Csr = static_cast<unsigned>(C)});
-}
-inline uint32_t lw(unsigned Rd, int32_t Imm, unsigned Rs1) {
-  return encode(Op::RV_LW, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
-}
-inline uint32_t sw(unsigned Rs2, int32_t Imm, unsigned Rs1) {
-  return encode(Op::RV_SW, {.Rs1 = Rs1, .Rs2 = Rs2, .Imm = Imm});
-}
 
 inline Words operator+(Words A, const Words &B) {
   A.insert(A.end(), B.begin(), B.end());

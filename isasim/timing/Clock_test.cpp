@@ -229,7 +229,7 @@ TEST_F(ClockTest, AFullQueueStallsTheStart) {
   Settings.Raster.QueueDepth = 2;
   const unsigned Tile = Settings.Timing.Raster.StartCycles + 4096 / 16 + 1024;
   const Words Start = {csrw(raster::Csr::Start, 0)};
-  const Words Wait = {csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
+  const Words Wait = {csrr(15, raster::Csr::Wait)};
   // A second warp, which nobody starts, changes nothing.
   for (const unsigned Warps : {1U, 2U}) {
     Settings.WarpsPerCore = Warps;
@@ -251,7 +251,7 @@ TEST_F(ClockTest, AFullQueueStallsTheStart) {
 TEST_F(ClockTest, TilesOutliveTheirRun) {
   const unsigned Tile = Settings.Timing.Raster.StartCycles + 4096 / 16 + 1024;
   const Words Start = emptyTile() + Words{csrw(raster::Csr::Start, 0)};
-  const Words Wait = {csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
+  const Words Wait = {csrr(15, raster::Csr::Wait)};
   for (const unsigned Adds : {10U, 500U, 3000U}) {
     auto M = Machine::create(Settings);
     ASSERT_TRUE(M);
@@ -302,7 +302,7 @@ TEST_F(ClockTest, AQueueStaysFullFromRunToRun) {
 Words gradients() {
   const Words Spin = {addi(13, 13, -1), // loop
                       encode(Op::RV_BNE, {.Rs1 = 13, .Rs2 = 0, .Imm = -4})};
-  const uint32_t Next = csrr(19, static_cast<unsigned>(raster::Csr::GradNext));
+  const uint32_t Next = csrr(19, raster::Csr::GradNext);
   return Words{lui(14, 0x200000),
                csrw(raster::Csr::Gaussians, 14),
                csrw(raster::Csr::List, 14),
@@ -329,8 +329,7 @@ Words gradients() {
          Spin +
          Words{csrw(raster::Csr::Start, 0), csrw(raster::Csr::Start, 0),
                encode(Op::RV_SLLI, {.Rd = 13, .Rs1 = 12, .Imm = 8})} +
-         Spin + repeat(8, {Next}) +
-         Words{csrr(19, static_cast<unsigned>(raster::Csr::Wait))};
+         Spin + repeat(8, {Next}) + Words{csrr(19, raster::Csr::Wait)};
 }
 
 // The machine's rasterizer, halted by the first core's batches, has not
@@ -377,7 +376,7 @@ Words everything() {
                encode(Op::RV_BNE, {.Rs1 = 13, .Rs2 = 0, .Imm = -9 * 4}),
                csrw(raster::Csr::Start, 0),
                csrw(raster::Csr::Start, 0),
-               csrr(19, static_cast<unsigned>(raster::Csr::Wait))};
+               csrr(19, raster::Csr::Wait)};
 }
 
 TEST(Clock, ChangesNothing) {

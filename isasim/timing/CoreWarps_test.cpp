@@ -153,8 +153,7 @@ TEST_F(CoreWarpsTest, WarpsWaitOutsideTheirCore) {
   const Words Body =
       Words{csrr(10, CSR_CORE_ID), csrr(14, CSR_WARP_ID),
             encode(Op::RV_SH1ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 14})} +
-      countThenMeet(4) +
-      Words{csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
+      countThenMeet(4) + Words{csrr(15, raster::Csr::Wait)};
   std::string First;
   for (const unsigned Threads : {1U, 4U}) {
     Settings.HostThreads = Threads;
