@@ -20,7 +20,7 @@ public:
 
   const isasim::Image &program() const { return *Program; }
 
-  /// Puts the program into \p Machine with the data that saveData() kept, or
+  /// Puts the program into \p Machine with the data that saveFrom() kept, or
   /// its initial data the first time.
   void restoreInto(isasim::Machine &Machine);
   /// Keeps what the program's data is now; it must be the loaded one.
