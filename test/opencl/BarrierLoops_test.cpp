@@ -52,12 +52,7 @@ std::vector<cl_uint> run(const TestDevice &Device, const char *Name,
       Device.upload(std::vector<cl_uint>(std::size_t{Groups} * Size));
   Kernel.setArg(0, Out);
   Kernel.setArg(1, cl::Local(Size * sizeof(cl_uint)));
-  cl::Event Done;
-  EXPECT_EQ(Device.queue().enqueueNDRangeKernel(
-                Kernel, cl::NullRange, cl::NDRange(Groups * Size),
-                cl::NDRange(Size), nullptr, &Done),
-            CL_SUCCESS);
-  EXPECT_EQ(Done.wait(), CL_SUCCESS) << Name << ", groups of " << Size;
+  Device.run(Kernel, Groups * Size, Size);
   return Device.download<cl_uint>(Out, std::size_t{Groups} * Size);
 }
 

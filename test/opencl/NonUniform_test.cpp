@@ -197,10 +197,7 @@ TEST_F(NonUniform, AProgramFromItsBinaryHasThem) {
   cl::Kernel Kernel(Binary, "ids");
   const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 4 * 21 * 37);
   Kernel.setArg(0, Out);
-  EXPECT_EQ(Device.queue().enqueueNDRangeKernel(
-                Kernel, cl::NullRange, cl::NDRange(37), cl::NDRange(16)),
-            CL_SUCCESS);
-  EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
+  Device.run(Kernel, 37, 16);
 }
 
 } // namespace

@@ -67,6 +67,8 @@ TEST_F(Queries, MoreLocalMemoryThanThereIsIsRefusedAtOnce) {
   Kernel.setArg(0, Out);
   Kernel.setArg(1, cl::Local(Most - 404));
   Kernel.setArg(2, cl::Local(4));
+  // Accepted: what alignment adds shows only when the arguments are placed, and
+  // then fails the kernel's event.
   EXPECT_EQ(enqueue(Kernel, 16), CL_SUCCESS);
   EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
   Kernel.setArg(2, cl::Local(8));
@@ -197,8 +199,7 @@ kernel void ends(global uint *a, global uint *b, global uint *c,
   for (cl_uint I = 0; I < 4; ++I)
     Kernel.setArg(I, Quarters[I]);
   Kernel.setArg(4, cl_ulong{Bytes / 4 - 1});
-  EXPECT_EQ(enqueue(Kernel, 1024), CL_SUCCESS);
-  EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
+  Device.run(Kernel, 1024, cl::NullRange);
   cl_uint Value = 0;
   for (const cl::Buffer &Quarter : Quarters)
     EXPECT_EQ(Device.queue().enqueueReadBuffer(Quarter, CL_TRUE, Bytes - 4, 4,

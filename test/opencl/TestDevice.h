@@ -70,13 +70,17 @@ public:
               CL_SUCCESS);
     return Values;
   }
-  void run(const cl::Kernel &Kernel, std::size_t Global,
-           std::size_t Local) const {
-    EXPECT_EQ(QueueHandle.enqueueNDRangeKernel(Kernel, cl::NullRange,
-                                               cl::NDRange(Global),
-                                               cl::NDRange(Local)),
-              CL_SUCCESS);
-    EXPECT_EQ(QueueHandle.finish(), CL_SUCCESS);
+  /// Runs \p Kernel to its end, which must be a good one.
+  void run(const cl::Kernel &Kernel, const cl::NDRange &Global,
+           const cl::NDRange &Local) const {
+    const auto Name = Kernel.getInfo<CL_KERNEL_FUNCTION_NAME>();
+    cl::Event Done;
+    ASSERT_EQ(QueueHandle.enqueueNDRangeKernel(Kernel, cl::NullRange, Global,
+                                               Local, nullptr, &Done),
+              CL_SUCCESS)
+        << Name;
+    // A fault of the kernel is the event's; clFinish says nothing of it.
+    EXPECT_EQ(Done.wait(), CL_SUCCESS) << Name;
   }
 
 private:
