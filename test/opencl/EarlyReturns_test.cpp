@@ -4,34 +4,16 @@
 /// Each kernel is told to the host a second time, from barrier to barrier for
 /// the whole group.
 
-#include "TestDevice.h"
+#include "WorkGroups.h"
 
-#include <ostream>
-
-using vorion::test::TestDevice;
+using namespace vorion::test;
 
 namespace {
 
-using U = cl_uint;
-using Values = std::vector<U>;
-
-struct Shape {
-  U X, Y, Z;
-  U items() const { return X * Y * Z; }
-};
-
-/// What GoogleTest shows for a parameter.
-[[maybe_unused]] void PrintTo(const Shape &S, std::ostream *Stream) {
-  *Stream << S.X << "x" << S.Y << "x" << S.Z;
-}
-
 constexpr U Groups = 4;
-/// What the output holds before a kernel runs.
-constexpr U Untouched = ~U{0};
 
+/// Behind ItemMacros.
 const char *const Source = R"(
-#define ITEM (get_local_id(0) + get_local_size(0) * (get_local_id(1) + get_local_size(1) * get_local_id(2)))
-#define ITEMS (get_local_size(0) * get_local_size(1) * get_local_size(2))
 #define NAMES uint l = ITEM, n = ITEMS, id = get_group_id(0) * n + l
 
 kernel void at_once(global uint *out, local uint *t, uint k) {
@@ -431,12 +413,7 @@ void compare(const TestDevice &Device, const cl::Program &Program,
   for (; Arguments + 1 < K.getInfo<CL_KERNEL_NUM_ARGS>(); ++Arguments)
     K.setArg(Arguments, cl::Local(N * sizeof(U)));
   K.setArg(Arguments, Bound);
-  cl::Event Done;
-  EXPECT_EQ(Device.queue().enqueueNDRangeKernel(
-                K, cl::NullRange, cl::NDRange(S.X * Groups, S.Y, S.Z),
-                cl::NDRange(S.X, S.Y, S.Z), nullptr, &Done),
-            CL_SUCCESS);
-  ASSERT_EQ(Done.wait(), CL_SUCCESS) << Tested.Name;
+  Device.run(K, cl::NDRange(S.X * Groups, S.Y, S.Z), S.range());
   const Values Got = Device.download<U>(Out, std::size_t{N} * Groups);
   for (U Number = 0; Number < Groups; ++Number) {
     Group G(N, Number, Bound);
@@ -453,7 +430,8 @@ TEST_P(EarlyReturnShapes, TheOthersPassTheirBarriers) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
   std::string Log;
-  const cl::Program Program = Device.build(Source, Log);
+  const cl::Program Program =
+      Device.build(std::string(ItemMacros) + Source, Log);
   ASSERT_EQ(Log, "");
   for (const Kernel &K : Kernels)
     compare(Device, Program, K, GetParam());
@@ -470,7 +448,8 @@ TEST(EarlyReturns, TheGroupsSizeMayBeRequired) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
   std::string Log;
-  const cl::Program Program = Device.build(Source, Log);
+  const cl::Program Program =
+      Device.build(std::string(ItemMacros) + Source, Log);
   ASSERT_EQ(Log, "");
   compare(Device, Program, {"required", required}, {6, 4, 1});
 }
