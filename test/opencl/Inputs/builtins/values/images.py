@@ -1,6 +1,7 @@
 """Image functions: each texel of a small image is read or written, and what the image is.
 
-Formats, samplers and what lies outside are tested elsewhere (Images_test.cpp, ImageTypes_test.cpp).
+Formats, samplers and what lies outside are tested elsewhere (ImageFormats_test.cpp, Samplers_test.cpp,
+ImageTypes_test.cpp).
 """
 
 import random
