@@ -1,5 +1,7 @@
 #include "KnownPrograms.h"
 
+#include "FileState.h"
+
 extern "C" {
 #include "pocl_cache.h"
 #include "pocl_checked_file.h"
@@ -106,20 +108,16 @@ bool namesItsProgram(const char *Source, const char *Options,
   return true;
 }
 
-/// Size, time and path, as a line.
-std::string stateOf(const fs::path &File) {
-  std::error_code Error;
-  return std::to_string(fs::file_size(File, Error)) + " " +
-         std::to_string(
-             fs::last_write_time(File, Error).time_since_epoch().count()) +
-         " " + File.string() + "\n";
+/// State and path.
+std::string lineOf(const fs::path &File) {
+  return stateOf(File) + " " + File.string() + "\n";
 }
 
 int addCompiler(dl_phdr_info *Info, size_t, void *Files) {
   const std::string_view Path(Info->dlpi_name);
   for (const char *Name : {"/libLLVM", "/libclang"})
     if (Path.find(Name) != Path.npos)
-      *static_cast<std::string *>(Files) += stateOf(Info->dlpi_name);
+      *static_cast<std::string *>(Files) += lineOf(Info->dlpi_name);
   return 0;
 }
 
@@ -132,7 +130,7 @@ std::string compilerFiles() {
   std::error_code Error;
   for (const auto &Entry :
        fs::directory_iterator(fs::path(Data) / "include", Error))
-    Files += stateOf(Entry.path());
+    Files += lineOf(Entry.path());
   dl_iterate_phdr(addCompiler, &Files);
   return Files;
 }
@@ -142,7 +140,7 @@ bool areUnchanged(const std::string &Files) {
   std::istringstream Lines(Files);
   for (std::string Line; std::getline(Lines, Line);) {
     const size_t Path = Line.find(' ', Line.find(' ') + 1) + 1;
-    if (Path == 0 || stateOf(Line.substr(Path)) != Line + "\n")
+    if (Path == 0 || lineOf(Line.substr(Path)) != Line + "\n")
       return false;
   }
   return true;

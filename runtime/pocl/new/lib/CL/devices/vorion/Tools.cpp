@@ -1,6 +1,7 @@
 #include "Tools.h"
 
 #include "CompilerLibrary.h"
+#include "FileState.h"
 
 extern "C" {
 #include "config.h"
@@ -95,7 +96,7 @@ std::string Tools::fingerprint() const {
       Files.push_back(Entry.path());
   std::sort(Files.begin(), Files.end());
 
-  // FNV-1a over names, sizes and times.
+  // FNV-1a over names and states.
   uint64_t Hash = 0xcbf29ce484222325;
   const auto Mix = [&Hash](const std::string &Text) {
     for (const unsigned char C : Text)
@@ -103,9 +104,7 @@ std::string Tools::fingerprint() const {
   };
   for (const fs::path &File : Files) {
     Mix(File.filename().string());
-    Mix(std::to_string(fs::file_size(File, Error)));
-    Mix(std::to_string(
-        fs::last_write_time(File, Error).time_since_epoch().count()));
+    Mix(stateOf(File));
   }
   return std::to_string(Hash);
 }
