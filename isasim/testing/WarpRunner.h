@@ -22,6 +22,19 @@ inline Lanes16 all(uint32_t Value) {
   Lanes.fill(Value);
   return Lanes;
 }
+inline Lanes16 laneNumbers() {
+  Lanes16 Lanes;
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    Lanes[L] = L;
+  return Lanes;
+}
+/// 1 in the lanes of \p Mask, 0 in the others.
+inline Lanes16 bitsOf(uint32_t Mask) {
+  Lanes16 Lanes;
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    Lanes[L] = Mask >> L & 1;
+  return Lanes;
+}
 
 class WarpRunner {
 public:
