@@ -5,7 +5,6 @@
 #include "raster/RasterTest.h"
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace vorion::raster {
@@ -190,7 +189,6 @@ TEST_F(HardCases, BoxEdgesOnCentresAndTileBorders) {
 }
 
 TEST_F(HardCases, RadiiBeyondAnInt) {
-  constexpr float Inf = std::numeric_limits<float>::infinity();
   std::vector<Gaussian> Scene;
   for (const float Extent : {2.2e9F, 1e19F, 3e38F, Inf})
     for (const float Mean : {0.0F, -2e4F, 1e9F}) {

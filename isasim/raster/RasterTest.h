@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -116,6 +117,17 @@ protected:
     return pixels(T.Width, T.Height);
   }
 };
+
+inline constexpr float Inf = std::numeric_limits<float>::infinity();
+inline constexpr float NotANumber = std::numeric_limits<float>::quiet_NaN();
+
+inline std::span<const Gaussian> only(const Gaussian &G) { return {&G, 1}; }
+
+/// Of constant alpha \p Opacity over its box.
+inline Gaussian flatGaussian(float X, float Y, float ExtentX, float ExtentY,
+                             float Opacity, float Red = 1) {
+  return {{X, Y}, {0, 0, 0}, Opacity, {Red, 2, 3}, {ExtentX, ExtentY}, 0};
+}
 
 /// A round Gaussian of standard deviation \p Sigma with a box of 3 sigma.
 inline Gaussian roundGaussian(float X, float Y, float Sigma, float Opacity,
