@@ -2,7 +2,7 @@
 /// write by each of the six instructions, and what is not allowed.
 
 #include "testing/ElfBuilder.h"
-#include "testing/Encode.h"
+#include "testing/Instructions.h"
 #include "testing/WarpRunner.h"
 #include "vorion/isasim/Launch.h"
 #include "vorion/isasim/Machine.h"
@@ -57,31 +57,23 @@ struct Ran {
 /// differ from lane to lane, x10 to x13 are stored, and keep Untouched in lanes
 /// that are not active.
 Ran run(uint32_t Mask, const std::vector<uint32_t> &Body) {
-  auto Load = [](std::vector<uint32_t> &To, unsigned Rd, uint32_t Value) {
-    const uint32_t Upper = Value + 0x800;
-    To.push_back(encode(Op::RV_LUI,
-                        {.Rd = Rd, .Imm = static_cast<int32_t>(Upper >> 12)}));
-    To.push_back(encode(
-        Op::RV_ADDI,
-        {.Rd = Rd, .Rs1 = Rd, .Imm = static_cast<int32_t>(Value << 20) >> 20}));
-  };
   std::vector<uint32_t> Code;
-  Load(Code, 20, 0xFFFF);
+  loadConstant(Code, 20, 0xFFFF);
   Code.push_back(encode(Op::VX_TMC, {.Rs1 = 20}));
-  Load(Code, 20, 0xFFFF);
+  loadConstant(Code, 20, 0xFFFF);
   Code.push_back(encode(Op::RV_CSRRS, {.Rd = 5, .Csr = CSR_THREAD_ID}));
   const uint32_t Steps[] = {0x01010101, 0x00300207, 0x10204081};
   for (unsigned N = 0; N != std::size(Steps); ++N) {
-    Load(Code, 6 + N, Steps[N]);
+    loadConstant(Code, 6 + N, Steps[N]);
     Code.push_back(encode(Op::RV_MUL, {.Rd = 6 + N, .Rs1 = 6 + N, .Rs2 = 5}));
     Code.push_back(
         encode(Op::RV_XORI, {.Rd = 6 + N, .Rs1 = 6 + N, .Imm = 0x2A5}));
   }
   for (unsigned N = 0; N != Results; ++N)
-    Load(Code, 10 + N, Untouched);
-  Load(Code, 21, VX_GLOBAL_BASE);
+    loadConstant(Code, 10 + N, Untouched);
+  loadConstant(Code, 21, VX_GLOBAL_BASE);
   Code.push_back(encode(Op::RV_SH2ADD, {.Rd = 21, .Rs1 = 5, .Rs2 = 21}));
-  Load(Code, 22, Mask);
+  loadConstant(Code, 22, Mask);
   Code.push_back(encode(Op::VX_TMC, {.Rs1 = 22}));
   Code.insert(Code.end(), Body.begin(), Body.end());
   Code.push_back(encode(Op::VX_TMC, {.Rs1 = 20}));

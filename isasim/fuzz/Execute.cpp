@@ -1,7 +1,7 @@
 #include "fuzz/Targets.h"
 
 #include "core/Isa.h"
-#include "testing/Encode.h"
+#include "testing/Instructions.h"
 #include "testing/Operations.h"
 #include "translate/Translator.h"
 #include "vorion/isasim/Machine.h"
@@ -17,6 +17,7 @@ namespace vorion::isasim::fuzz {
 namespace {
 
 using testing::encode;
+using testing::loadConstant;
 
 constexpr uint64_t GlobalBytes = 64 << 10;
 constexpr uint64_t MaxInstructions = 6000;
@@ -41,15 +42,6 @@ Config shape() {
   C.MaxInstructions = MaxInstructions;
   C.HostThreads = 1;
   return C;
-}
-
-void loadConstant(std::vector<uint32_t> &To, unsigned Rd, uint32_t Value) {
-  To.push_back(
-      encode(Op::RV_LUI,
-             {.Rd = Rd, .Imm = static_cast<int32_t>((Value + 0x800) >> 12)}));
-  To.push_back(encode(
-      Op::RV_ADDI,
-      {.Rd = Rd, .Rs1 = Rd, .Imm = static_cast<int32_t>(Value << 20) >> 20}));
 }
 
 /// All lanes on, and registers from which instructions reach something: lane

@@ -4,7 +4,7 @@
 #include "observe/numerics/Numerics.h"
 #include "raster/RasterTables.h"
 #include "raster/UnitTables.h"
-#include "testing/Encode.h"
+#include "testing/Instructions.h"
 #include "vorion/isasim/Machine.h"
 
 #include <algorithm>
@@ -134,11 +134,7 @@ public:
   }
 
   void add(Op O, const testing::Fields &F) { Code.push_back(encode(O, F)); }
-  void load(unsigned Rd, uint32_t V) {
-    add(Op::RV_LUI, {.Rd = Rd, .Imm = static_cast<int32_t>((V + 0x800) >> 12)});
-    add(Op::RV_ADDI,
-        {.Rd = Rd, .Rs1 = Rd, .Imm = static_cast<int32_t>(V << 20) >> 20});
-  }
+  void load(unsigned Rd, uint32_t V) { testing::loadConstant(Code, Rd, V); }
   void setMask(uint32_t Lanes) {
     load(Mask, Lanes);
     add(Op::VX_TMC, {.Rs1 = Mask});

@@ -15,15 +15,6 @@ namespace {
 
 constexpr unsigned AllLanes = 5; ///< the register that programs keep it in
 
-void loadConstant(std::vector<uint32_t> &To, unsigned Rd, uint32_t Value) {
-  To.push_back(
-      encode(Op::RV_LUI,
-             {.Rd = Rd, .Imm = static_cast<int32_t>((Value + 0x800) >> 12)}));
-  To.push_back(encode(
-      Op::RV_ADDI,
-      {.Rd = Rd, .Rs1 = Rd, .Imm = static_cast<int32_t>(Value << 20) >> 20}));
-}
-
 std::vector<uint32_t> start() {
   std::vector<uint32_t> Words;
   loadConstant(Words, AllLanes, 0xFFFF);

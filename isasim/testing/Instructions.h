@@ -4,6 +4,8 @@
 
 #include "testing/Encode.h"
 
+#include <vector>
+
 namespace vorion::isasim::testing {
 
 inline uint32_t addi(unsigned Rd, unsigned Rs1, int32_t Imm) {
@@ -31,6 +33,14 @@ inline uint32_t sw(unsigned Rs2, int32_t Imm, unsigned Rs1) {
 }
 inline uint32_t bne(unsigned Rs1, unsigned Rs2, int32_t Imm) {
   return encode(Op::RV_BNE, {.Rs1 = Rs1, .Rs2 = Rs2, .Imm = Imm});
+}
+
+/// Adds to \p To what puts \p Value into \p Rd.
+inline void loadConstant(std::vector<uint32_t> &To, unsigned Rd,
+                         uint32_t Value) {
+  // addi may take up to 0x800 away again.
+  To.push_back(lui(Rd, Value + 0x800));
+  To.push_back(addi(Rd, Rd, static_cast<int32_t>(Value << 20) >> 20));
 }
 
 } // namespace vorion::isasim::testing
