@@ -27,8 +27,7 @@ Expected<Plane> planeForWebP(const std::string &Where, Bytes File,
   Plane P;
   P.Width = static_cast<std::size_t>(Features.width);
   P.Height = static_cast<std::size_t>(Features.height);
-  const std::size_t Size = 4 * P.pixels(); // sides have 14 bits
-  if (Size > Limit)
+  if (P.bytes() > Limit) // sides have 14 bits
     return Error{Where, fmt::format("{}x{} pixels in a file of {} bytes, "
                                     "expected at most {} bytes unpacked",
                                     P.Width, P.Height, File.size(), Limit)};
@@ -37,7 +36,7 @@ Expected<Plane> planeForWebP(const std::string &Where, Bytes File,
 
 Expected<Success> decodeWebPInto(const std::string &Where, Bytes File,
                                  Plane &P) {
-  P.Rgba.resize(4 * P.pixels());
+  P.Rgba.resize(P.bytes());
   if (!WebPDecodeRGBAInto(dataOf(File), File.size(),
                           reinterpret_cast<uint8_t *>(P.Rgba.data()),
                           P.Rgba.size(), static_cast<int>(4 * P.Width)))

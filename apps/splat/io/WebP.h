@@ -15,6 +15,7 @@ struct Plane {
   std::vector<std::byte> Rgba;
 
   std::size_t pixels() const { return Width * Height; }
+  std::size_t bytes() const { return 4 * pixels(); }
   unsigned at(std::size_t Pixel, std::size_t Channel) const {
     return byteAt(Rgba, 4 * Pixel + Channel);
   }

@@ -48,14 +48,15 @@ void writeBlocks(std::size_t Count, std::size_t Planes, std::span<float> To,
                  Function Get) {
   // Blocks of a thread at a time: half a megabyte or more.
   constexpr std::size_t Part = 1 << 12;
-  inParallelParts(
-      blocksOf(Count), Part, [&](std::size_t First, std::size_t End) {
-        for (std::size_t At = First * Planes; At < End * Planes; ++At)
-          for (std::size_t Lane = 0; Lane < LINE_WORDS; ++Lane) {
-            const std::size_t I = At / Planes * LINE_WORDS + Lane;
-            To[At * LINE_WORDS + Lane] = I < Count ? Get(I, At % Planes) : 0;
-          }
-      });
+  inParallelParts(blocksOf(Count), Part,
+                  [&](std::size_t First, std::size_t End) {
+                    float *Word = &To[First * Planes * LINE_WORDS];
+                    for (std::size_t Block = First; Block < End; ++Block)
+                      for (std::size_t P = 0; P < Planes; ++P)
+                        for (std::size_t I = Block * LINE_WORDS;
+                             I < (Block + 1) * LINE_WORDS; ++I)
+                          *Word++ = I < Count ? Get(I, P) : 0;
+                  });
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "scene/formats/Sog.h"
 
 #include "io/WebP.h"
-#include "io/Zip.h"
 #include "scene/ForeignFile.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
@@ -321,7 +320,7 @@ private:
       fail(P.error());
       return None;
     }
-    Unpacked += 4 * P->pixels();
+    Unpacked += P->bytes();
     Pictures.push_back(
         {file(Group, Index), std::move(*Content), std::move(*P)});
     return Pictures.back().Pixels;
@@ -483,27 +482,6 @@ Expected<SceneFile> parseSogData(const std::string &Where,
   if (const auto Unpacked = Data->unpack(Result.Gaussians, 0); !Unpacked)
     return Unpacked.error();
   return Result;
-}
-
-bool isSog(Bytes File) { return isZip(File); }
-
-Expected<SceneFile> parseSog(const std::string &Where, Bytes File,
-                             const ReadOptions &Options) {
-  auto Z = ZipArchive::open(Where, "a SOG archive", File);
-  if (!Z)
-    return Z.error();
-  std::vector<std::string> Names;
-  Names.reserve(Z->entries());
-  for (uint64_t I = 0; I < Z->entries(); ++I)
-    Names.push_back(Z->name(I));
-  if (std::ranges::find(Names, "meta.json") == Names.end())
-    return foreignArchive(Where, Names);
-  const auto Meta = Z->read("meta.json");
-  if (!Meta)
-    return Meta.error();
-  return parseSogData(
-      Where, Where + ": meta.json", *Meta,
-      [&Z](const std::string &Name) { return Z->read(Name); }, Options);
 }
 
 } // namespace vorion::splat
