@@ -35,6 +35,9 @@ import piglit
 import pocl
 from suite import OUTCOMES, Problem
 
+# What a user or `timeout` sends to end a run.
+ENDING = (signal.SIGINT, signal.SIGTERM)
+
 
 def options():
     parser = argparse.ArgumentParser(prog="conformance.sh", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -75,7 +78,7 @@ def platform_files():
     root = os.environ.get("VORION_ROOT")
     if not root:
         raise Problem("VORION_ROOT is not set, expected scripts/env.sh to be sourced")
-    patterns = ("pocl/lib/libvorion-pocl.so", "pocl/share/pocl/*.bc", "bin/vorion-clang", "bin/vorion-link", "lib/libvorion-runtime.so",
+    patterns = ("pocl/lib/libvorion-pocl*.so", "pocl/share/pocl/*.bc", "bin/vorion-clang", "bin/vorion-link", "lib/libvorion-runtime.so",
                 "lib/vorion/*")
     return sorted(path for pattern in patterns for path in glob.glob(os.path.join(root, pattern))
                   if os.path.isfile(path))
@@ -238,9 +241,17 @@ def print_tables(results, known):
     return all(outcome in OUTCOMES[:2] or outcome.startswith("known") for _, outcome, _ in others)
 
 
+def end_run(number, _):
+    """Ends what runs, too, on the way out. A second signal must not interrupt that, and `timeout` sends its own twice."""
+    for other in ENDING:
+        signal.signal(other, signal.SIG_IGN)
+    sys.exit(128 + number)
+
+
 def main():
     args = options()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM)) # what runs is ended, too
+    for number in ENDING:
+        signal.signal(number, end_run)
     try:
         known = known_reasons(args.reasons)
         results = measure(args)
@@ -250,8 +261,6 @@ def main():
     except (Problem, OSError, json.JSONDecodeError) as problem:
         print(f"conformance.sh: error: {problem}", file=sys.stderr)
         return 3
-    except KeyboardInterrupt:
-        return 128 + signal.SIGINT
     return 0 if print_tables(results, known) else 1
 
 

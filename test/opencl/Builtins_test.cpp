@@ -19,7 +19,6 @@ constexpr std::size_t Count = 1000, Group = 50;
 TEST(Builtins, SixtyFourBitIntegersAgreeWithTheHost) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void integers(global const long *a, global const long *b,
                      global long *out) {
@@ -39,9 +38,7 @@ kernel void integers(global const long *a, global const long *b,
   o[9] = clz(x) * 100 + popcount(y);
   o[10] = x > y ? as_int((float)x) : as_int((float)uy);
   o[11] = (long)((float)x * 0.5f);
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
 
   // Any number of significant bits: division has paths for small operands.
   std::mt19937_64 Random(1);
@@ -90,16 +87,13 @@ kernel void integers(global const long *a, global const long *b,
 TEST(Builtins, EveryHalfIsReadAndWrittenExactly) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void halves(global const half *in, global float *wide, global half *out) {
   size_t i = get_global_id(0);
   float x = vload_half(i, in);
   wide[i] = x;
   vstore_half(x, i, out);
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   std::vector<uint16_t> In(1 << 16);
   for (std::size_t I = 0; I < In.size(); ++I)
     In[I] = static_cast<uint16_t>(I);
@@ -133,7 +127,6 @@ kernel void halves(global const half *in, global float *wide, global half *out) 
 TEST(Builtins, EdgesOfPowAndFractAreAsInC) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void edges(global const float *x, global const float *y,
                   global float *out) {
@@ -142,9 +135,7 @@ kernel void edges(global const float *x, global const float *y,
   out[3 * i] = pow(x[i], y[i]);
   out[3 * i + 1] = fract(x[i], &whole);
   out[3 * i + 2] = whole;
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   const float Infinity = std::numeric_limits<float>::infinity();
   std::vector<float> Edges = {
       0,         1,    2,          3,         0.5F,
@@ -188,7 +179,6 @@ kernel void edges(global const float *x, global const float *y,
 TEST(Builtins, PrintfWritesWholeLinesInTheOrderOfLanes) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void print(global const float *x) {
   size_t i = get_global_id(0);
@@ -197,9 +187,7 @@ kernel void print(global const float *x) {
            "text", (ulong)i << 40, 'x');
   else if (i == 7)
     printf("plain\n");
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   std::vector<float> X(20);
   for (std::size_t I = 0; I < X.size(); ++I)
     X[I] = static_cast<float>(I) / 4;

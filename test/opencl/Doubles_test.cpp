@@ -115,9 +115,7 @@ protected:
   template <typename Out, typename In>
   std::vector<Out> run(const std::string &Source, const std::vector<In> &Values,
                        std::size_t OutsPerItem) const {
-    std::string Log;
-    const cl::Program Program = Device.build(Source, Log);
-    EXPECT_EQ(Log, "");
+    const cl::Program Program = Device.build(Source);
     cl::Kernel Kernel(Program, "f");
     const cl::Buffer From = Device.upload(Values);
     const std::size_t Count = Values.size() * OutsPerItem;
@@ -235,7 +233,6 @@ TEST_F(Doubles, ComeFromWholeNumbersInEveryMode) {
 }
 
 TEST_F(Doubles, HaveConstantsArgumentsVectorsAndPrintf) {
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 typedef struct { char c; double x; } part;
 constant double table[2] = {M_PI, DBL_MAX};
@@ -258,9 +255,7 @@ kernel void f(global double *out, double a, double4 b, part p, local double *t,
   out[14] = ilogb(DBL_MIN / 4) + nextafter(1.0, 2.0);
   out[15] = 0.1f;
   printf("%g %.17g %v4lf %v2lg\n", (float)a, a, b, b.xy);
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   struct Part {
     char C;
     double X;

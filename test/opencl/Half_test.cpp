@@ -49,7 +49,6 @@ protected:
 
   /// \p Expression of a, b, c for all of them.
   std::vector<uint16_t> run(const std::string &Expression) {
-    std::string Log;
     const cl::Program Program = Device.build(
         "#pragma OPENCL EXTENSION cl_khr_fp16 : enable\n"
         "kernel void call(global const half *as, global const half *bs,\n"
@@ -57,9 +56,7 @@ protected:
         "  size_t i = get_global_id(0);\n"
         "  half a = as[i], b = bs[i], c = cs[i];\n"
         "  out[i] = " +
-            Expression + ";\n}",
-        Log);
-    EXPECT_EQ(Log, "");
+        Expression + ";\n}");
     cl::Kernel Kernel(Program, "call");
     const cl::Buffer In[] = {Device.upload(A), Device.upload(B),
                              Device.upload(C)};
@@ -183,7 +180,6 @@ TEST_F(Halves, ConversionsRoundAsTheyAreNamed) {
 }
 
 TEST_F(Halves, PrintfTakesVectorsOfThem) {
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 #pragma OPENCL EXTENSION cl_khr_fp16 : enable
 kernel void print(half x, half tiny) {
@@ -192,9 +188,7 @@ kernel void print(half x, half tiny) {
   all.sf = tiny;
   printf("%.2v2hf %v3hg %v4hg %v8ha %v16hg %.1hf\n", all.s01, all.s01f,
          all.lo.lo, all.hi, all, x);
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   cl::Kernel Kernel(Program, "print");
   Kernel.setArg(0, halfOf(0x3E00)); // 1.5
   Kernel.setArg(1, halfOf(1));

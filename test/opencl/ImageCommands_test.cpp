@@ -121,14 +121,11 @@ TEST_F(ImageCommands, AnImageOfABufferEndsAsOthersDo) {
 }
 
 TEST_F(ImageCommands, AnImageCanBeMadeOfAPartOfABuffer) {
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void twice(read_only image1d_buffer_t in, write_only image1d_buffer_t out) {
   int x = get_global_id(0);
   write_imageui(out, x, 2 * read_imageui(in, x));
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   std::vector<uint32_t> Values(128);
   std::iota(Values.begin(), Values.end(), 0U);
   cl::Buffer All = Device.upload(Values);
@@ -199,10 +196,8 @@ TEST_F(ImageCommands, ASamplerOfUnknownModesIsRefused) {
 }
 
 TEST_F(ImageCommands, AnArgumentOfAnotherKindIsRefused) {
-  std::string Log;
-  const cl::Program Program = Device.build(
-      "kernel void k(read_only image2d_t in, sampler_t s) {}", Log);
-  ASSERT_EQ(Log, "");
+  const cl::Program Program =
+      Device.build("kernel void k(read_only image2d_t in, sampler_t s) {}");
   cl::Kernel Kernel(Program, "k");
   const cl::Buffer Buffer(Device.context(), CL_MEM_READ_WRITE, 64);
   const cl::Image2D Written(Device.context(), CL_MEM_WRITE_ONLY,
@@ -431,14 +426,11 @@ TEST_F(ImageCommands, AFillColourOfSrgbIsLinear) {
 }
 
 TEST_F(ImageCommands, ASamplerCanBeReleasedWhenItsKernelIsEnqueued) {
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void sample(read_only image1d_t in, sampler_t s, global float *out) {
   *out = read_imagef(in, s, 0.5f).x;
 }
-)",
-                                           Log);
-  ASSERT_EQ(Log, "");
+)");
   std::vector<float> Texels = {1, 3};
   const cl::Image1D Image(Device.context(),
                           CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,

@@ -28,13 +28,6 @@ protected:
                std::chrono::steady_clock::now().time_since_epoch().count());
   }
 
-  cl::Program build(const std::string &Source, const char *Options = "") const {
-    std::string Log;
-    const cl::Program Program = Device.build(Source, Log, Options);
-    EXPECT_EQ(Log, "");
-    return Program;
-  }
-
   /// What kernel `f` writes.
   int result(const cl::Program &Program) const {
     cl::Kernel Kernel(Program, "f");
@@ -42,6 +35,14 @@ protected:
     Kernel.setArg(0, Out);
     Device.run(Kernel, 1, 1);
     return Device.download<int>(Out, 1)[0];
+  }
+
+  template <cl_kernel_arg_info Question>
+  static auto argument(const cl::Kernel &Kernel, cl_uint Index) {
+    cl_int Status = CL_SUCCESS;
+    auto Answer = Kernel.getArgInfo<Question>(Index, &Status);
+    EXPECT_EQ(Status, CL_SUCCESS) << "argument " << Index;
+    return Answer;
   }
 
   /// All that can be asked of the program and its kernels.
@@ -66,15 +67,15 @@ protected:
         All += " " + std::to_string(Size);
       for (cl_uint I = 0; I != Kernel.getInfo<CL_KERNEL_NUM_ARGS>(); ++I)
         All +=
-            "; " + Kernel.getArgInfo<CL_KERNEL_ARG_TYPE_NAME>(I) + " " +
-            Kernel.getArgInfo<CL_KERNEL_ARG_NAME>(I) + " " +
+            "; " + argument<CL_KERNEL_ARG_TYPE_NAME>(Kernel, I) + " " +
+            argument<CL_KERNEL_ARG_NAME>(Kernel, I) + " " +
             std::to_string(
-                Kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(I)) +
+                argument<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(Kernel, I)) +
             " " +
             std::to_string(
-                Kernel.getArgInfo<CL_KERNEL_ARG_ACCESS_QUALIFIER>(I)) +
+                argument<CL_KERNEL_ARG_ACCESS_QUALIFIER>(Kernel, I)) +
             " " +
-            std::to_string(Kernel.getArgInfo<CL_KERNEL_ARG_TYPE_QUALIFIER>(I));
+            std::to_string(argument<CL_KERNEL_ARG_TYPE_QUALIFIER>(Kernel, I));
     }
     return All;
   }
@@ -100,11 +101,12 @@ kernel __attribute__((work_group_size_hint(8, 1, 1))) void f(global int *out) {
 }
 kernel void nothing() {}
 )");
-  const cl::Program Made = build(Source, "-cl-std=CL3.0");
+  const char *Options = "-cl-std=CL3.0 -cl-kernel-arg-info";
+  const cl::Program Made = Device.build(Source, Options);
   const std::string Expected = description(Made);
   EXPECT_NE(Expected.find("warning: seen"), std::string::npos) << Expected;
   EXPECT_EQ(result(Made), 1);
-  const cl::Program Known = build(Source, "-cl-std=CL3.0");
+  const cl::Program Known = Device.build(Source, Options);
   EXPECT_EQ(description(Known), Expected);
   EXPECT_EQ(result(Known), 1) << "variables begin anew";
 }
@@ -113,21 +115,22 @@ TEST_F(KnownPrograms, GiveOtherKernelsThanThoseThatRanBefore) {
   const std::string Source =
       unseen("kernel void g(global int *o) { *o = 1; }\n"
              "kernel void f(global int *o) { *o = get_local_size(0) + 1; }");
-  build(Source);
-  EXPECT_EQ(result(build(Source)), 2) << "no group of it was compiled before";
+  Device.build(Source);
+  EXPECT_EQ(result(Device.build(Source)), 2)
+      << "no group of it was compiled before";
 }
 
 TEST_F(KnownPrograms, AreThoseOfTheirOptions) {
   const std::string Source = unseen("kernel void f(global int *o) { *o = N; }");
   for (const char *Options : {"-DN=1", "-DN=2", "-DN=1"})
-    EXPECT_EQ(result(build(Source, Options)), Options[4] - '0');
+    EXPECT_EQ(result(Device.build(Source, Options)), Options[4] - '0');
 }
 
 TEST_F(KnownPrograms, CanBeLinkedAndGivenAsBinaries) {
   const std::string Source =
       unseen("kernel void f(global int *o) { *o = 11; }");
-  build(Source);
-  const cl::Program Known = build(Source);
+  Device.build(Source);
+  const cl::Program Known = Device.build(Source);
   const auto Binaries = Known.getInfo<CL_PROGRAM_BINARIES>();
   const cl::Device Of = Device.queue().getInfo<CL_QUEUE_DEVICE>();
   cl::Program Loaded(Device.context(), {Of}, Binaries);
@@ -159,14 +162,15 @@ TEST_F(KnownPrograms, ReadTheirOwnFilesAgain) {
         unseen(std::string(Include) +
                "\nkernel void f(global int *o) { *o = VALUE; }");
     if (std::string(Include).find("later.h") != std::string::npos) {
-      EXPECT_EQ(result(build(Source, Options.c_str())), 0);
+      EXPECT_EQ(result(Device.build(Source, Options.c_str())), 0);
       std::ofstream(Folder / "later.h") << "\n";
     }
     for (int Time = 0; Time != 2; ++Time) {
       // Of the same length each time, and perhaps of the same time.
       std::ofstream(Folder / "own.h")
           << "#define VALUE " << 10 + ++Number << "\n";
-      EXPECT_EQ(result(build(Source, Options.c_str())), 10 + Number) << Include;
+      EXPECT_EQ(result(Device.build(Source, Options.c_str())), 10 + Number)
+          << Include;
     }
   }
   fs::remove_all(Folder);

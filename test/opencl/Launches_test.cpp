@@ -17,10 +17,8 @@ using U = uint32_t;
 TEST(Launches, ARangeWithoutItemsIsDone) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program =
-      Device.build("kernel void f(global int *o) { o[0] = 1; }", Log);
-  ASSERT_EQ(Log, "");
+      Device.build("kernel void f(global int *o) { o[0] = 1; }");
   const cl::Buffer Out = Device.upload(std::vector<int32_t>{0});
   cl::Kernel K(Program, "f");
   K.setArg(0, Out);
@@ -34,7 +32,6 @@ TEST(Launches, ARangeWithoutItemsIsDone) {
 TEST(Launches, ArgumentsOfAllKindsArrive) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 typedef struct { char c; float f; long l; int4 v; } mixed;
 constant int table[4] = {10, 20, 30, 40};
@@ -53,9 +50,7 @@ kernel void take(char c, global int *out, mixed m, local int *a, float3 v,
   out[8 * i + 5] = (int)(b[15 - i] >> 40);
   out[8 * i + 6] = k[1] + table[i & 3];
   out[8 * i + 7] = null == 0;
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   struct alignas(16) {
     char C = 3;
     float F = 4.5F;
@@ -90,7 +85,6 @@ kernel void take(char c, global int *out, mixed m, local int *a, float3 v,
 TEST(Launches, AStructureByValueBelongsToTheWorkItem) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 typedef struct { int a[4]; } numbers;
 kernel void change(numbers n, global int *out) {
@@ -98,9 +92,7 @@ kernel void change(numbers n, global int *out) {
   n.a[i & 3] += i;
   barrier(CLK_LOCAL_MEM_FENCE);
   out[i] = n.a[0] + n.a[1] + n.a[2] + n.a[3];
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   const int32_t Numbers[4] = {1, 2, 3, 4};
   const cl::Buffer Out = Device.upload(std::vector<int32_t>(100));
   cl::Kernel K(Program, "change");
@@ -115,7 +107,6 @@ kernel void change(numbers n, global int *out) {
 TEST(Launches, StaticLocalMemoryLiesBesideArguments) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void both(global int *out, local int *given) {
   local int own[40];
@@ -127,9 +118,7 @@ kernel void both(global int *out, local int *given) {
     flag = 7;
   barrier(CLK_LOCAL_MEM_FENCE);
   out[get_global_id(0)] = own[39 - l] * 1000 + given[39 - l] + flag;
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   const cl::Buffer Out = Device.upload(std::vector<int32_t>(400));
   cl::Kernel K(Program, "both");
   K.setArg(0, Out);
@@ -143,7 +132,6 @@ kernel void both(global int *out, local int *given) {
 TEST(Launches, AtomicsCountEveryWorkItem) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void count(global int *g, local int *t) {
   int i = get_global_id(0);
@@ -165,9 +153,7 @@ kernel void count(global int *g, local int *t) {
   barrier(CLK_LOCAL_MEM_FENCE);
   if (get_local_id(0) == 0)
     atomic_add(&g[9], *t);
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   std::vector<int32_t> Start(11, 0);
   Start[5] = -1;
   const cl::Buffer Counters = Device.upload(Start);
@@ -196,14 +182,11 @@ kernel void count(global int *g, local int *t) {
 TEST(Launches, ProductsAndSumsRoundOneByOne) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void two(global const float *a, global float *out) {
   out[0] = a[0] * a[1] + a[2];
   out[1] = fma(a[0], a[1], a[2]);
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   // (1 + e)^2 - 1 with e = 2^-23: the product's last bit is lost by rounding.
   const float A = 1 + 0x1p-23F;
   const cl::Buffer In = Device.upload(std::vector<float>{A, A, -1});
@@ -219,7 +202,6 @@ kernel void two(global const float *a, global float *out) {
 TEST(Launches, OffsetsAndUnevenGridsReachTheIds) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void ids(global uint *out) {
   size_t x = get_global_id(0) - get_global_offset(0);
@@ -227,9 +209,7 @@ kernel void ids(global uint *out) {
   out[y * get_global_size(0) + x] =
       get_global_id(0) | get_global_id(1) << 8 | get_num_groups(0) << 16 |
       get_work_dim() << 24;
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   const cl::Buffer Out = Device.upload(std::vector<U>(30 * 6));
   cl::Kernel K(Program, "ids");
   K.setArg(0, Out);
@@ -245,12 +225,9 @@ kernel void ids(global uint *out) {
 TEST(Launches, AFaultFailsItsEventAndTheDeviceGoesOn) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 kernel void fault(global int *out) { out[0] = *(global int *)8; }
-kernel void fine(global int *out) { out[get_global_id(0)] = 42; })",
-                                           Log);
-  ASSERT_EQ(Log, "");
+kernel void fine(global int *out) { out[get_global_id(0)] = 42; })");
   const cl::Buffer Out = Device.upload(std::vector<int32_t>(8));
   cl::Kernel Fault(Program, "fault"), Fine(Program, "fine");
   Fault.setArg(0, Out);
@@ -272,21 +249,9 @@ kernel void fine(global int *out) { out[get_global_id(0)] = 42; })",
   EXPECT_EQ(Device.download<int32_t>(Out, 8), std::vector<int32_t>(8, 42));
 }
 
-TEST(Launches, CompileErrorsReachTheBuildLog) {
-  const TestDevice Device;
-  VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
-  testing::internal::CaptureStderr();
-  Device.build("kernel void f(global int *o) { o[0] = nowhere; }", Log);
-  testing::internal::GetCapturedStderr();
-  EXPECT_NE(Log.find("undeclared identifier 'nowhere'"), std::string::npos)
-      << Log;
-}
-
 TEST(Launches, KernelsSeeTheMachine) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 #ifndef __VORION__
 #error "__VORION__ is not defined"
@@ -294,9 +259,7 @@ TEST(Launches, KernelsSeeTheMachine) {
 #include <vorion.h>
 kernel void ask(global uint *out) {
   out[get_global_id(0)] = vx_num_threads() * 1000 + vx_thread_id();
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   const cl::Buffer Out = Device.upload(std::vector<U>(16));
   cl::Kernel K(Program, "ask");
   K.setArg(0, Out);
@@ -316,10 +279,8 @@ TEST(Counters, TellWhatOneKernelDid) {
       clGetExtensionFunctionAddressForPlatform(Platform(),
                                                "clGetEventInfoVORION"));
   ASSERT_NE(GetInfo, nullptr);
-  std::string Log;
   const cl::Program Program = Device.build(
-      "kernel void one(global int *o) { o[get_global_id(0)] = 1; }", Log);
-  ASSERT_EQ(Log, "");
+      "kernel void one(global int *o) { o[get_global_id(0)] = 1; }");
   const cl::Buffer Out = Device.upload(std::vector<int32_t>(160));
   cl::Kernel K(Program, "one");
   K.setArg(0, Out);

@@ -157,16 +157,11 @@ template <typename T>
 void expectOldFunctionsAtomic(const TestDevice &Device,
                               const std::string &Type) {
   const std::vector<Operation> All = operations<T>();
-  std::string Log;
   const cl::Program Program = Device.build(
       Extensions +
-          changeSource(All, Type,
-                       [](const Operation &O, const std::string &Place) {
-                         return std::string("atom_") + O.Name + "(" + Place +
-                                ", v)";
-                       }),
-      Log);
-  ASSERT_EQ(Log, "");
+      changeSource(All, Type, [](const Operation &O, const std::string &Place) {
+        return std::string("atom_") + O.Name + "(" + Place + ", v)";
+      }));
   expectAllAtomic(Device, Program, All);
 }
 
@@ -180,7 +175,6 @@ TEST(LongAtomics, OfOpenCL1) {
 TEST(LongAtomics, CountAndCompare) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(std::string(Extensions) + R"(
 kernel void count(volatile global long *up, volatile global ulong *down,
                   volatile global long *chain, global long *seen) {
@@ -193,9 +187,7 @@ kernel void count(volatile global long *up, volatile global ulong *down,
     old = atom_cmpxchg(chain, expected, expected * 3 + 1);
   } while (old != expected);
   seen[2 * n + i] = old;
-})",
-                                           Log);
-  ASSERT_EQ(Log, "");
+})");
   const int64_t Carries = 0xFFFFFFF0;
   const cl::Buffer Up = Device.upload(std::vector<int64_t>{Carries}),
                    Down = Device.upload(std::vector<int64_t>{Carries + 100}),
@@ -231,7 +223,6 @@ template <typename T>
 void expectNewFunctionsAtomic(const TestDevice &Device,
                               const std::string &Type) {
   const std::vector<Operation> All = operations<T>();
-  std::string Log;
   const cl::Program Program = Device.build(
       changeSource(All, "atomic_" + Type,
                    [&](const Operation &O, const std::string &Place) {
@@ -240,8 +231,7 @@ void expectNewFunctionsAtomic(const TestDevice &Device,
                                             : "atomic_fetch_" + Name + "(") +
                             Place + ", v)";
                    }),
-      Log, "-cl-std=CL3.0");
-  ASSERT_EQ(Log, "");
+      "-cl-std=CL3.0");
   expectAllAtomic(Device, Program, All);
 }
 
@@ -267,7 +257,6 @@ TEST(LongAtomics, OrdersAndScopes) {
       Suffixes.push_back(", v, memory_order_" + Order + ", memory_scope_" +
                          Scope + ")");
   std::size_t Next = 0;
-  std::string Log;
   const std::vector<Operation> All(Suffixes.size(), Add);
   const cl::Program Program = Device.build(
       changeSource(All, "atomic_ulong",
@@ -276,8 +265,7 @@ TEST(LongAtomics, OrdersAndScopes) {
                      return "atomic_fetch_add_explicit(" + Place +
                             Suffixes[Next++ / 2];
                    }),
-      Log, "-cl-std=CL3.0");
-  ASSERT_EQ(Log, "");
+      "-cl-std=CL3.0");
   expectAllAtomic(Device, Program, All);
 }
 
@@ -285,7 +273,6 @@ TEST(LongAtomics, OrdersAndScopes) {
 TEST(LongAtomics, Doubles) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(R"(
 void add(generic atomic_double *sum, double v) {
   double seen = atomic_load_explicit(sum, memory_order_relaxed);
@@ -306,8 +293,7 @@ kernel void sum(global atomic_double *all, global atomic_double *last,
   of_group[i] = atomic_load(&own);
   atomic_store_explicit(&last[1], 1e300, memory_order_release);
 })",
-                                           Log, "-cl-std=CL3.0");
-  ASSERT_EQ(Log, "");
+                                           "-cl-std=CL3.0");
   const cl::Buffer All = Device.upload(std::vector<double>{0}),
                    Last = Device.upload(std::vector<double>{-1, 0}),
                    Seen(Device.context(), CL_MEM_READ_WRITE, Items * 8),

@@ -115,9 +115,7 @@ TEST_P(SpirvKernels, ComputeWhatTheirSourceDoes) {
   const auto [File, Kernel] = GetParam();
   const Bytes Text =
       fileBytes(std::string(VORION_SPIRV_SOURCES "/") + File + ".cl");
-  std::string Log;
-  const cl::Program Source = Device.build({Text.begin(), Text.end()}, Log);
-  ASSERT_EQ(Log, "");
+  const cl::Program Source = Device.build({Text.begin(), Text.end()});
   EXPECT_EQ(run(build(module(File)), Kernel), run(Source, Kernel));
 }
 

@@ -171,10 +171,8 @@ void check(const TestDevice &Device, const char *Language,
            const std::string &Condition,
            const std::function<bool(int32_t)> &Takes) {
   SCOPED_TRACE(Language);
-  std::string Log;
   const cl::Program Program =
-      Device.build(kernelOf(Functions, Condition), Log, Language);
-  ASSERT_EQ(Log, "");
+      Device.build(kernelOf(Functions, Condition), Language);
   cl::Kernel Kernel(Program, "call");
   std::mt19937 Random(1);
   for (const std::size_t Size : GroupSizes) {
@@ -246,10 +244,8 @@ TEST(Subgroups, FunctionsOfGroupsGoThroughAllSubgroups) {
 TEST(Subgroups, AGroupOfSoManySubgroupsHasALaneForEachWorkItem) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
   const cl::Program Program = Device.build(
-      "kernel void fill(global int *out) { out[get_global_id(0)] = 1; }", Log);
-  ASSERT_EQ(Log, "");
+      "kernel void fill(global int *out) { out[get_global_id(0)] = 1; }");
   const cl::Kernel Kernel(Program, "fill");
   constexpr cl_uint LocalSizeForCount = 0x11B8;
   for (const std::size_t Count : {std::size_t{4}, std::size_t{65}}) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <gtest/gtest.h>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,14 +36,13 @@ public:
   const cl::Context &context() const { return ContextHandle; }
   const cl::CommandQueue &queue() const { return QueueHandle; }
 
-  /// The program, or an empty text in \p Log and a built one.
-  cl::Program build(const std::string &Source, std::string &Log,
-                    const char *Options = "") const {
+  /// The built program. One that cannot be built ends the test with its log.
+  cl::Program build(const std::string &Source, const char *Options = "") const {
     cl::Program Program(ContextHandle, Source);
-    Log.clear();
     if (Program.build(Options) != CL_SUCCESS)
-      Log =
-          "build failed\n" + Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Chosen);
+      throw std::runtime_error(
+          "build failed\n" +
+          Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Chosen));
     return Program;
   }
 

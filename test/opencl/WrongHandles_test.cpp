@@ -43,12 +43,9 @@ TEST_F(WrongHandles, ImagesOfOtherTypesAreRefused) {
   const cl::Image1D Line(Open.context(), CL_MEM_READ_WRITE,
                          {CL_RGBA, CL_UNSIGNED_INT8}, 16);
   EXPECT_EQ(K.setArg(2, Line), CL_INVALID_MEM_OBJECT);
-  std::string Log;
   const cl::Program P = Open.build(
       "typedef image1d_t line;\n"
-      "kernel void f(read_only line i, read_only image2d_depth_t d) {}\n",
-      Log);
-  ASSERT_NE(Log.substr(0, 12), "build failed") << Log;
+      "kernel void f(read_only line i, read_only image2d_depth_t d) {}\n");
   cl::Kernel F(P, "f");
   EXPECT_EQ(F.setArg(0, Picture), CL_INVALID_MEM_OBJECT);
   EXPECT_EQ(F.setArg(0, Line), CL_SUCCESS);
