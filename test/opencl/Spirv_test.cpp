@@ -183,6 +183,21 @@ TEST_F(Spirv, ModulesOfAnAssemblerRun) {
   }
 }
 
+/// llvm-spirv-15 crashes: OpenCL-CTS's op_assume and op_expect have nulls of
+/// scalars and shuffles of vectors with different numbers of lanes.
+TEST_F(Spirv, FormsThatTheTranslatorLacksAreRead) {
+  cl::Kernel Kernel(build(module("forms")), "forms");
+  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 96);
+  Kernel.setArg(0, Out);
+  Kernel.setArg(1, 7);
+  Device.run(Kernel, 1, 1);
+  std::vector<cl_uint> Seen = Device.download<cl_uint>(Out, 24);
+  Seen[13] = 0;                                                 // anything
+  EXPECT_EQ(Seen, (std::vector<cl_uint>{9, 5, 4, 7, 2, 7, 9, 1, //
+                                        9, 1, 2, 3, 0, 0, 7, 0, //
+                                        1, 2, 7, 9, 9, 4, 9, 4}));
+}
+
 TEST_F(Spirv, CppForOpenClRuns) {
   cl::Kernel Kernel(build(module("templates")), "templates");
   const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 64);

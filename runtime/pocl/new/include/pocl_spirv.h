@@ -1,6 +1,6 @@
 /* What of a module of SPIR-V is seen and set before it is translated: whether
  * it is one for OpenCL, whether a device offers what it needs, its
- * specialization constants. */
+ * specialization constants, forms that the translator does not read. */
 #ifndef POCL_SPIRV_H
 #define POCL_SPIRV_H
 
@@ -28,5 +28,12 @@ int pocl_spirv_is_offered(cl_device_id device, const void *il, size_t length,
  * refuses values of 64 bits that have 17 digits. */
 void pocl_spirv_specialize(void *il, size_t length, uint32_t id,
                            uint64_t value);
+
+/* The same module, to be freed, with what llvm-spirv-15 does not read written
+ * in forms that it does: nulls of scalars as constants, shuffles of vectors
+ * with different numbers of lanes as those of equal ones, composites of values
+ * as insertions. length becomes the new length in bytes. A null pointer without
+ * memory. */
+void *pocl_spirv_common_forms(const void *il, size_t *length);
 
 #endif

@@ -1,35 +1,17 @@
 #include "pocl_spirv.h"
 
+#include "pocl_spirv_words.h"
+
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The numbers are those of the SPIR-V specification. */
-
-#define MAGIC 0x07230203U
-#define HEADER_WORDS 5
-
 /* 1.4: the translator writes this version, though it does not read all of it.
  * It says itself what it does not know. */
 #define NEWEST_VERSION 0x10400U
 
-enum {
-  OP_MEMORY_MODEL = 14,
-  OP_ENTRY_POINT = 15,
-  OP_CAPABILITY = 17,
-  OP_SPEC_CONSTANT_TRUE = 48,
-  OP_SPEC_CONSTANT_FALSE = 49,
-  OP_SPEC_CONSTANT = 50,
-  OP_FUNCTION = 54,
-  OP_FUNCTION_END = 56,
-  OP_FUNCTION_CALL = 57,
-  OP_VARIABLE = 59,
-  OP_DECORATE = 71
-};
 enum { DECORATION_SPEC_ID = 1, DECORATION_LINKAGE = 41 };
-/* No number of a result is larger: the specification's universal limit. */
-enum { MOST_RESULTS = 0x3fffff };
 enum { CAPABILITY_SHADER = 1, CAPABILITY_KERNEL = 6 };
 enum { ADDRESSING_PHYSICAL32 = 1, ADDRESSING_PHYSICAL64 = 2 };
 
@@ -89,25 +71,19 @@ static int offers(cl_device_id device, feature needed) {
   return 0;
 }
 
-static uint32_t word_at(const void *il, size_t index) {
-  uint32_t word;
-  memcpy(&word, (const char *)il + index * sizeof(word), sizeof(word));
-  return word;
-}
-
 /* The first instruction of this kind at or after the word *at, which moves
  * there, or 0. */
 static int find(const void *il, size_t length, uint32_t kind, size_t *at) {
   const size_t words = length / sizeof(uint32_t);
-  for (; *at < words; *at += word_at(il, *at) >> 16)
-    if ((word_at(il, *at) & 0xffff) == kind)
+  for (; *at < words; *at += size_at(il, *at))
+    if (kind_at(il, *at) == kind)
       return 1;
   return 0;
 }
 
 static int has_capability(const void *il, size_t length, uint32_t number) {
   size_t at = HEADER_WORDS;
-  for (; find(il, length, OP_CAPABILITY, &at); at += word_at(il, at) >> 16)
+  for (; find(il, length, OP_CAPABILITY, &at); at += size_at(il, at))
     if (word_at(il, at + 1) == number)
       return 1;
   return 0;
@@ -134,7 +110,7 @@ static uint32_t least_words(uint32_t kind) {
 
 /* The function or variable that the instruction at this word tells of, or 0. */
 static uint32_t told_of(const void *il, size_t at) {
-  switch (word_at(il, at) & 0xffff) {
+  switch (kind_at(il, at)) {
   case OP_ENTRY_POINT:
     return word_at(il, at + 2);
   case OP_FUNCTION_CALL:
@@ -157,15 +133,15 @@ static const char *missing_at_end(const void *il, size_t length) {
   if (!is_there)
     return NULL; /* the translator finds out */
   int is_inside = 0;
-  for (at = HEADER_WORDS; at < words; at += word_at(il, at) >> 16) {
-    const uint32_t kind = word_at(il, at) & 0xffff;
+  for (at = HEADER_WORDS; at < words; at += size_at(il, at)) {
+    const uint32_t kind = kind_at(il, at);
     if (kind == OP_FUNCTION || kind == OP_VARIABLE)
       is_there[word_at(il, at + 2) & MOST_RESULTS] = 1;
     if (kind == OP_FUNCTION || kind == OP_FUNCTION_END)
       is_inside = kind == OP_FUNCTION;
   }
   int is_whole = 1;
-  for (at = HEADER_WORDS; at < words; at += word_at(il, at) >> 16) {
+  for (at = HEADER_WORDS; at < words; at += size_at(il, at)) {
     const uint32_t result = told_of(il, at);
     is_whole &= result == 0 || is_there[result & MOST_RESULTS];
   }
@@ -190,8 +166,8 @@ int pocl_spirv_is_kernel_module(const void *il, size_t length,
     return 0;
   }
   for (size_t at = HEADER_WORDS; at < words;) {
-    const uint32_t size = word_at(il, at) >> 16;
-    const uint32_t kind = word_at(il, at) & 0xffff;
+    const uint32_t size = size_at(il, at);
+    const uint32_t kind = kind_at(il, at);
     if (size < least_words(kind) || size > words - at) {
       snprintf(text, POCL_SPIRV_TEXT,
                "the module of SPIR-V is damaged: the instruction at byte %zu "
@@ -262,9 +238,9 @@ static void set_word(void *il, size_t index, uint32_t word) {
 static void specialize_result(void *il, size_t length, uint32_t result,
                               uint64_t value) {
   for (size_t at = HEADER_WORDS; at < length / sizeof(uint32_t);
-       at += word_at(il, at) >> 16) {
-    const uint32_t size = word_at(il, at) >> 16;
-    const uint32_t kind = word_at(il, at) & 0xffff;
+       at += size_at(il, at)) {
+    const uint32_t size = size_at(il, at);
+    const uint32_t kind = kind_at(il, at);
     if (kind < OP_SPEC_CONSTANT_TRUE || kind > OP_SPEC_CONSTANT || size < 3 ||
         word_at(il, at + 2) != result)
       continue;
@@ -282,8 +258,8 @@ void pocl_spirv_specialize(void *il, size_t length, uint32_t id,
                            uint64_t value) {
   size_t decoration = HEADER_WORDS;
   for (; find(il, length, OP_DECORATE, &decoration);
-       decoration += word_at(il, decoration) >> 16) {
-    if (word_at(il, decoration) >> 16 < 4 ||
+       decoration += size_at(il, decoration)) {
+    if (size_at(il, decoration) < 4 ||
         word_at(il, decoration + 2) != DECORATION_SPEC_ID ||
         word_at(il, decoration + 3) != id)
       continue;
