@@ -3,6 +3,7 @@
 #include "vorion/runtime.h"
 #include "vorion_abi.h"
 
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <thread>
@@ -270,6 +271,31 @@ TEST(RuntimeConsole, KeepsABoundedPart) {
   EXPECT_LE(Result.console_dropped, 101u);
   EXPECT_EQ(vx_image_free(Image), VX_OK);
   EXPECT_EQ(vx_device_close(Device), VX_OK);
+}
+
+/// Ends the program with a static object that still runs an image, and that
+/// outlasts ours, as it was there before. What had gone was mostly read without
+/// harm; sanitizers see it.
+[[noreturn]] void endWithARun() {
+  static struct Last {
+    vx_device *Device = nullptr;
+    bool run() const {
+      vx_image *Image = nullptr;
+      vx_result Result{};
+      return vx_image_load_file(Device, Elf, &Image) == VX_OK &&
+             vx_start_main(Device, Image) == VX_OK &&
+             vx_wait(Device, &Result) == VX_OK &&
+             Result.outcome == VX_OUTCOME_EXIT;
+    }
+    ~Last() { std::_Exit(run() ? 0 : 1); }
+  } Object;
+  vx_device_open(Config, &Object.Device);
+  std::exit(Object.run() ? 0 : 1);
+}
+
+TEST(RuntimeDeathTest, RunsWhileStaticObjectsGo) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(endWithARun(), testing::ExitedWithCode(0), "");
 }
 
 TEST_F(Runtime, NoGroupsRunNothing) {

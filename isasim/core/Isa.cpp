@@ -118,7 +118,8 @@ std::string operand(std::string_view Token, const Decoded &D, uint32_t Word,
 } // namespace
 
 std::optional<Decoded> decode(uint32_t Word) {
-  static const Buckets Table;
+  // Never destroyed: a program's static objects may outlast ours, and run code.
+  static const Buckets &Table = *new Buckets;
   for (const Op O : Table.of(Word)) {
     const InsnInfo &Info = InsnTable[static_cast<unsigned>(O)];
     if ((Word & Info.Mask) != Info.Match)

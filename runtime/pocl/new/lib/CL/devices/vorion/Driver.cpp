@@ -184,6 +184,7 @@ void submitReady(_cl_command_node *Node) {
 }
 
 void submit(_cl_command_node *Node, cl_command_queue) {
+  Worker::finishBeforeExit();
   Node->ready = 1;
   submitReady(Node);
   POCL_UNLOCK_OBJ(Node->sync.event.event);

@@ -1,6 +1,9 @@
 #include "Worker.h"
 #include "Launch.h"
 
+#include <set>
+#include <unistd.h>
+
 extern "C" {
 #include "common.h"
 #include "pocl_util.h"
@@ -8,15 +11,37 @@ extern "C" {
 
 namespace vorion {
 
+namespace {
+
+/// All workers there are. It is never destroyed: who waits for them does so
+/// while static objects go.
+struct Registry {
+  std::mutex Lock;
+  std::set<Worker *> Workers;
+};
+Registry &registry() {
+  static auto &Only = *new Registry;
+  return Only;
+}
+
+} // namespace
+
 Worker::Worker(vx_device *Device, KernelCache &Kernels)
-    : Device(Device), Kernels(Kernels), Thread([this] { run(); }) {}
+    : Device(Device), Kernels(Kernels), Thread([this] { run(); }) {
+  std::lock_guard Guard(registry().Lock);
+  registry().Workers.insert(this);
+}
 
 Worker::~Worker() {
+  {
+    std::lock_guard Guard(registry().Lock);
+    registry().Workers.erase(this);
+  }
   {
     std::lock_guard Guard(Lock);
     Ending = true;
   }
-  Changed.notify_one();
+  Changed.notify_all();
   Thread.join();
 }
 
@@ -25,7 +50,28 @@ void Worker::push(_cl_command_node *Command) {
     std::lock_guard Guard(Lock);
     Ready.push_back(Command);
   }
-  Changed.notify_one();
+  Changed.notify_all();
+}
+
+void Worker::finish() {
+  std::unique_lock Guard(Lock);
+  Changed.wait(Guard, [this] { return Ready.empty() && !Executing; });
+}
+
+void Worker::finishAll() {
+  std::lock_guard Guard(registry().Lock);
+  for (Worker *W : registry().Workers)
+    W->finish();
+}
+
+void Worker::finishBeforeExit() {
+  if (gettid() != getpid())
+    return;
+  // exit() ends the objects of its own thread before those of all.
+  struct Finishing {
+    ~Finishing() { finishAll(); }
+  };
+  thread_local const Finishing AtItsEnd;
 }
 
 void Worker::run() {
@@ -36,8 +82,12 @@ void Worker::run() {
       return;
     _cl_command_node *Command = Ready.front();
     Ready.pop_front();
+    Executing = true;
     Guard.unlock();
     execute(Command);
+    Guard.lock();
+    Executing = false;
+    Changed.notify_all();
   }
 }
 

@@ -22,15 +22,23 @@ public:
   /// has failed, it is not executed and fails, too.
   void push(_cl_command_node *Command);
 
+  /// For a thread of the program: if it is the first one, and it ends or calls
+  /// exit(), it waits until all workers have executed what they were given.
+  /// Only then do static objects go, of which LLVM and the simulator have some.
+  static void finishBeforeExit();
+
 private:
   void run();
   void execute(_cl_command_node *Command);
+  void finish();
+  static void finishAll();
 
   vx_device *Device;
   KernelCache &Kernels;
   std::mutex Lock;
   std::condition_variable Changed;
   std::deque<_cl_command_node *> Ready;
+  bool Executing = false;
   bool Ending = false;
   std::thread Thread;
 };
