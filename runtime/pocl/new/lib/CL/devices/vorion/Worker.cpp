@@ -69,7 +69,11 @@ void Worker::finishBeforeExit() {
     return;
   // exit() ends the objects of its own thread before those of all.
   struct Finishing {
-    ~Finishing() { finishAll(); }
+    const pid_t Process = getpid();
+    ~Finishing() {
+      if (getpid() == Process) // a forked one has no workers
+        finishAll();
+    }
   };
   thread_local const Finishing AtItsEnd;
 }
