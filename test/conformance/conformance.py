@@ -46,7 +46,7 @@ def options():
     suites.add_argument("--pocl", action="store_true", help="PoCL's own tests")
     suites.add_argument("--packages", action="store_true", help="what packages have: piglit's tests of OpenCL")
     parser.add_argument("--only", default="", metavar="PATTERN", help="a regular expression on PROGRAM/SUBTEST")
-    parser.add_argument("--limit", type=float, metavar="SECONDS", help="for one subtest (default: 600, of c11_atomics 3600)")
+    parser.add_argument("--limit", type=float, metavar="SECONDS", help="for one subtest (default: 600, of c11_atomics 3600, of vectors 1800)")
     parser.add_argument("--jobs", type=positive, default=1, metavar="N", help="subtests at a time (default: 1)")
     parser.add_argument("--results", default=None, metavar="FILE", help="default: conformance.jsonl in FOLDER, piglit.jsonl or pocl.jsonl here")
     parser.add_argument("--json", metavar="FILE", help="all results as JSON")

@@ -9,7 +9,7 @@ import subprocess
 from suite import Problem, Test
 
 # Seconds for a subtest, where it has thousands of kernels.
-LIMITS = {"c11_atomics": 3600}
+LIMITS = {"c11_atomics": 3600, "vectors": 1800}
 
 # How many times fewer values than all.
 FACTOR = "-[8192]"
