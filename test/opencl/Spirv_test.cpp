@@ -192,7 +192,8 @@ TEST_F(Spirv, FormsThatTheTranslatorLacksAreRead) {
   Kernel.setArg(1, 7);
   Device.run(Kernel, 1, 1);
   std::vector<cl_uint> Seen = Device.download<cl_uint>(Out, 24);
-  Seen[13] = 0;                                                 // anything
+  // One lane may be anything.
+  Seen[13] = 0;
   EXPECT_EQ(Seen, (std::vector<cl_uint>{9, 5, 4, 7, 2, 7, 9, 1, //
                                         9, 1, 2, 3, 0, 0, 7, 0, //
                                         1, 2, 7, 9, 9, 4, 9, 4}));
