@@ -7,9 +7,12 @@ namespace vorion::splat {
 namespace {
 
 Finding detect(const EffectInputs &In) {
-  if (In.Options.Optics != LensModel::Pinhole ||
+  if (In.Options.Optics == LensModel::Equirectangular ||
       In.Options.Through != Spread::Jacobian || In.Options.Rolling)
-    return {false, "for pinholes and the Jacobian alone", false};
+    return {false,
+            "not for full spheres, the unscented transform and rolling "
+            "shutters",
+            false};
   return {In.Facts.IsCrop,
           In.Facts.IsCrop ? "the principal point is outside the picture"
                           : "the principal point is in the picture",

@@ -144,7 +144,12 @@ TEST_F(Effects, ACropIsAPrincipalPointOutsideThePicture) {
     C.Cx = At;
     for (const std::string Mode : {"auto", "all", "flags", "sh1"})
       EXPECT_EQ(plan(Mode).of(effects::Crop).Code, EffectCode::Compiled) << At;
-    O.Optics = LensModel::OpenCv;
+    for (const LensModel M :
+         {LensModel::OpenCv, LensModel::Fisheye, LensModel::Orthographic}) {
+      O.Optics = M;
+      EXPECT_TRUE(needed(effects::Crop));
+    }
+    O.Optics = LensModel::Equirectangular;
     EXPECT_FALSE(needed(effects::Crop));
     O.Optics = LensModel::Pinhole;
     O.Through = Spread::Unscented;

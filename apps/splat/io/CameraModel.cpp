@@ -202,6 +202,59 @@ double CameraModel::undistorted(double Distorted) const {
   return High;
 }
 
+std::optional<std::array<double, 3>> CameraModel::direction(double X,
+                                                            double Y) const {
+  const auto Through = [](double A, double B) {
+    const double Length = std::hypot(A, B, 1.0);
+    return std::array{A / Length, B / Length, 1 / Length};
+  };
+  const double Distance = std::hypot(X, Y);
+  switch (Model) {
+  case LensModel::Orthographic:
+    return std::array{0.0, 0.0, 1.0};
+  case LensModel::Fisheye: {
+    // The distorted angle grows up to the limit.
+    double Low = 0, High = limit();
+    if (!(Distance < High * at(ofAngle(K), High * High)))
+      return std::nullopt;
+    for (int I = 0; I < 200; ++I) {
+      const double Angle = 0.5 * (Low + High);
+      (Angle * at(ofAngle(K), Angle * Angle) < Distance ? Low : High) = Angle;
+    }
+    const double Across = Distance > 0 ? std::sin(High) / Distance : 0;
+    return std::array{X * Across, Y * Across, std::cos(High)};
+  }
+  case LensModel::OpenCv:
+    break;
+  default:
+    return Through(X, Y);
+  }
+  // From the radial part's answer on by secants: the rest bends little.
+  double A = X, B = Y;
+  if (Distance > 0) {
+    const double Scale = undistorted(Distance) / Distance;
+    A *= Scale;
+    B *= Scale;
+  }
+  constexpr double Step = 1e-6;
+  for (int I = 0; I < 30; ++I) {
+    const auto Here = distorted(A, B);
+    const auto Right = distorted(A + Step, B), Down = distorted(A, B + Step);
+    const double Xa = (Right[0] - Here[0]) / Step;
+    const double Xb = (Down[0] - Here[0]) / Step;
+    const double Ya = (Right[1] - Here[1]) / Step;
+    const double Yb = (Down[1] - Here[1]) / Step;
+    const double Det = Xa * Yb - Xb * Ya;
+    A += (Yb * (X - Here[0]) - Xb * (Y - Here[1])) / Det;
+    B += (Xa * (Y - Here[1]) - Ya * (X - Here[0])) / Det;
+  }
+  const auto Place = distorted(A, B);
+  if (!(std::hypot(A, B) < limit()) ||
+      !(std::hypot(Place[0] - X, Place[1] - Y) < 1e-9 * (1 + Distance)))
+    return std::nullopt;
+  return Through(A, B);
+}
+
 CameraModel simplified(const CameraModel &M) {
   const bool Bends = M.Model != LensModel::OpenCv ||
                      std::ranges::any_of(M.K, [](double K) { return K != 0; });

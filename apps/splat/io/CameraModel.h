@@ -76,6 +76,10 @@ struct CameraModel {
   /// The radius before distortion that the radial part takes to \p Distorted:
   /// at most \c limit() and 1000.
   double undistorted(double Distorted) const;
+  /// The direction of length 1, in the camera's axes, whose place is (\p X, \p
+  /// Y) in units of the focal lengths; nothing if the lens shows nothing there.
+  /// Not of equirectangular cameras, whose units those are not.
+  std::optional<std::array<double, 3>> direction(double X, double Y) const;
 
   bool operator==(const CameraModel &) const = default;
 

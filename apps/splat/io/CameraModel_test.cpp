@@ -86,5 +86,33 @@ TEST(CameraModel, UndistortingIsTheWayBack) {
   EXPECT_EQ(Fold.undistorted(5), Fold.limit());
 }
 
+TEST(CameraModel, DirectionsAreTheWayBack) {
+  const CameraModel Models[] = {
+      {},
+      {LensModel::OpenCv,
+       {-0.28, 0.09, 0.002, -0.003, -0.012, 0.03, 0.02, 0.001, 0.004, -0.001,
+        0.002, 0.0005}},
+      {LensModel::Fisheye, {0.05, -0.01, 0.004, -0.0008}}};
+  for (const CameraModel &M : Models)
+    for (const double X : {-0.4, 0.0, 0.7})
+      for (const double Y : {0.0, 0.5}) {
+        const auto [U, V] = M.distorted(X, Y);
+        const auto D = M.direction(U, V);
+        ASSERT_TRUE(D.has_value());
+        EXPECT_NEAR((*D)[0] / (*D)[2], X, 1e-12);
+        EXPECT_NEAR((*D)[1] / (*D)[2], Y, 1e-12);
+        EXPECT_NEAR(std::hypot((*D)[0], (*D)[1], (*D)[2]), 1, 1e-15);
+      }
+  // Behind the camera, and where the lens shows nothing.
+  const CameraModel Fisheye{LensModel::Fisheye};
+  const auto Behind = Fisheye.direction(0, 2.5);
+  ASSERT_TRUE(Behind.has_value());
+  EXPECT_NEAR((*Behind)[1], std::sin(2.5), 1e-15);
+  EXPECT_NEAR((*Behind)[2], std::cos(2.5), 1e-15);
+  EXPECT_FALSE(Fisheye.direction(3, 2).has_value());
+  const CameraModel Fold{LensModel::OpenCv, {-0.3}};
+  EXPECT_FALSE(Fold.direction(0.8, 0).has_value());
+}
+
 } // namespace
 } // namespace vorion::splat

@@ -1,12 +1,16 @@
 // Where the picture is a window beside the principal point (effects/Crop.cpp):
 // how far beside the ray through the picture's middle a point is, rounded once.
-// Beside the axis it would be far, and f x / z would cancel against the
-// principal point.
-static float beside_middle(__local const splat_view *view,
-                           __local const splat_crop *crop, int axis, float x,
-                           float y, float z) {
+// Beside the axis it would be far, and the place's offset would cancel against
+// the principal point. A file of the model (crop_*.cl) comes after this one and
+// has
+//
+//     crop_mean   the place in pixels of a point that is so far beside the ray,
+//                 from differences to the ray's own place alone
+static float beside_ray(__local const splat_view *view,
+                        __local const splat_crop *crop, int axis, float x,
+                        float y, float z) {
   const float part[3] = {x, y, z};
-  float2 beside = (float2)(0.0f, 0.0f);
+  float2 beside = (float2)(-crop->start[axis], -crop->start_low[axis]);
 #pragma unroll
   for (int k = 0; k < 3; ++k) {
     const float2 from = two_sum(part[k], -view->position[k]);
@@ -19,4 +23,10 @@ static float beside_middle(__local const splat_view *view,
     beside = (float2)(next.x, beside.y + (next.y + low));
   }
   return beside.x + beside.y;
+}
+
+// (P(q) - P(q0)) / (q - q0) where P(q) = k.x q + k.y q^2 + k.z q^3 + k.w q^4.
+static float divided_difference(float4 k, float q, float q0) {
+  const float sum = q + q0, squares = q * q + q0 * q0;
+  return k.x + k.y * sum + k.z * (squares + q * q0) + k.w * sum * squares;
 }

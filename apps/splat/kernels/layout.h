@@ -54,12 +54,17 @@ typedef struct {
   float angle;     ///< of that
 } splat_shutter;
 
-/// What lies behind the view of a pinhole whose principal point is outside the
-/// picture: places are measured from the ray through the picture's middle.
+/// What lies behind the view, and behind the lens where there is one, of a
+/// camera whose principal point is outside the picture: places are measured
+/// from the ray through the picture's middle, or from the axis if the lens
+/// shows nothing in the middle.
 typedef struct {
-  float across[2][3];     ///< camera x and y less that ray's, by world axis,
+  float across[2][3];     ///< how far beside that ray, by world axis,
   float across_low[2][3]; ///< as high + low
-  float middle[2];        ///< of the picture, px
+  float start[2];         ///< what is to be taken away: of parallel rays, the
+  float start_low[2];     ///< distance of that ray from the axis
+  float place[2];         ///< of that ray, px
+  float ray[5];           ///< what the model has to know of it (crop_*.cl)
 } splat_crop;
 
 /// A Gaussian as rays meet it. Vectors are in the Gaussian's own axes and in

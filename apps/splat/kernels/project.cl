@@ -116,16 +116,18 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   float opacity = activated.w;
   if (USE_ANTIALIAS)
     opacity *= sqrt(fmax(ANTIALIAS_FLOOR, s.det_sharp / s.det));
+#if USE_CROP
+  const float2 beside = (float2)(beside_ray(view, &c->crop, 0, px, py, pz),
+                                 beside_ray(view, &c->crop, 1, px, py, pz));
 #if HAS_LENS
+  const float2 mean = crop_mean(view, &c->lens, &c->crop, beside, p);
+#else
+  const float2 mean = crop_mean(view, &c->crop, beside, z);
+#endif
+  const float mean_x = mean.x, mean_y = mean.y;
+#elif HAS_LENS
   const float mean_x = view->focal[0] * at.x + view->center[0] + shift.x;
   const float mean_y = view->focal[1] * at.y + view->center[1] + shift.y;
-#elif USE_CROP
-  const float mean_x =
-      view->focal[0] * beside_middle(view, &c->crop, 0, px, py, pz) / z +
-      c->crop.middle[0];
-  const float mean_y =
-      view->focal[1] * beside_middle(view, &c->crop, 1, px, py, pz) / z +
-      c->crop.middle[1];
 #else
   const float mean_x = view->focal[0] * x / z + view->center[0];
   const float mean_y = view->focal[1] * y / z + view->center[1];
@@ -213,13 +215,11 @@ project(__constant const splat_view *camera, __global const float *geometry,
 #endif
 #if USE_ROLLING_SHUTTER
   for (uint k = lane; k < sizeof(splat_shutter) / 4; k += LANES)
-    ((__local uint *)&w->shutter)[k] =
-        ((__constant const uint *)((__constant const splat_lens *)(camera + 1) +
-                                   1))[k];
+    ((__local uint *)&w->shutter)[k] = BEHIND_LENS(camera)[k];
 #endif
 #if USE_CROP
   for (uint k = lane; k < sizeof(splat_crop) / 4; k += LANES)
-    ((__local uint *)&w->crop)[k] = ((__constant const uint *)(camera + 1))[k];
+    ((__local uint *)&w->crop)[k] = BEHIND_LENS(camera)[k];
 #endif
   // What is written of a line may belong to nobody.
 #pragma unroll

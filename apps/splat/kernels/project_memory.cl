@@ -23,6 +23,14 @@
 #define ASK_FOR_SH(k) 0u
 #endif
 
+// What lies behind the view and the lens, if there is one.
+#if HAS_LENS
+#define BEHIND_LENS(camera)                                                    \
+  ((__constant const uint *)((__constant const splat_lens *)((camera) + 1) + 1))
+#else
+#define BEHIND_LENS(camera) ((__constant const uint *)((camera) + 1))
+#endif
+
 #define WHOLE_LINES(count)                                                     \
   (((count) + LINE_WORDS - 1) / LINE_WORDS * LINE_WORDS)
 // Rectangles of `count` Gaussians.

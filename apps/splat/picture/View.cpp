@@ -11,6 +11,13 @@ namespace {
 
 constexpr float Infinity = std::numeric_limits<float>::infinity();
 
+/// \p Value as a sum of two floats: \p Low is what rounding to \p High takes
+/// away.
+void split(double Value, float &High, float &Low) {
+  High = static_cast<float>(Value);
+  Low = static_cast<float>(Value - static_cast<double>(High));
+}
+
 /// The counterpart of the pinhole's limits for OpenCV's distortion: x/z and y/z
 /// that the picture's corners and the middles of its sides see by the radial
 /// part, and as far beyond as the rules say.
@@ -45,23 +52,13 @@ splat_view makeView(const Camera &C, const RenderOptions &Options) {
   splat_view V{};
   const auto Rotation = C.worldToCameraRotation();
   const auto Translation = C.worldToCameraTranslation();
-  // What the rounding to fp32 takes away goes into the low parts.
-  const auto Low = [](double Value) {
-    return static_cast<float>(Value -
-                              static_cast<double>(static_cast<float>(Value)));
-  };
   for (std::size_t I = 0; I < 9; ++I)
     V.rotation[I] = static_cast<float>(Rotation[I]);
   for (std::size_t I = 0; I < 3; ++I) {
-    V.position[I] = static_cast<float>(C.Position[I]);
-    V.position_low[I] = Low(C.Position[I]);
+    split(C.Position[I], V.position[I], V.position_low[I]);
+    split(Rotation[6 + I], V.depth_axis[I], V.depth_axis_low[I]);
   }
-  for (std::size_t I = 0; I < 3; ++I) {
-    V.depth_axis[I] = static_cast<float>(Rotation[6 + I]);
-    V.depth_axis_low[I] = Low(Rotation[6 + I]);
-  }
-  V.depth_offset[0] = static_cast<float>(Translation[2]);
-  V.depth_offset[1] = Low(Translation[2]);
+  split(Translation[2], V.depth_offset[0], V.depth_offset[1]);
 
   const double Focal[2] = {C.Fx, C.Fy};
   const double Center[2] = {C.Cx, C.Cy};
@@ -142,20 +139,47 @@ bool isCrop(const splat_view &V) {
 }
 
 splat_crop makeCrop(const Camera &C) {
-  splat_crop Crop{};
-  const auto Rotation = C.worldToCameraRotation();
+  // The ray through the middle, and what it is beside, in the camera's axes.
   const double Focal[2] = {C.Fx, C.Fy};
+  double Place[2] = {0.5 * C.Width, 0.5 * C.Height};
   const double Center[2] = {C.Cx, C.Cy};
-  const int Size[2] = {C.Width, C.Height};
+  auto Ray = C.Optics.direction((Place[0] - Center[0]) / Focal[0],
+                                (Place[1] - Center[1]) / Focal[1]);
+  if (!Ray) {
+    Ray = {0, 0, 1};
+    std::ranges::copy(Center, Place);
+  }
+  const auto [X, Y, Z] = *Ray;
+  std::array<std::array<double, 3>, 2> Beside{};
+  splat_crop Crop{};
+  switch (C.Optics.Model) {
+  case LensModel::Fisheye: {
+    const double Sine = std::hypot(X, Y);
+    const double Out[2] = {Sine > 0 ? X / Sine : 1, Sine > 0 ? Y / Sine : 0};
+    Beside = {{{Out[0] * Z, Out[1] * Z, -Sine}, {-Out[1], Out[0], 0}}};
+    const double Known[] = {std::atan2(Sine, Z), Z, Sine, Out[0], Out[1]};
+    std::ranges::transform(Known, Crop.ray,
+                           [](double K) { return static_cast<float>(K); });
+    break;
+  }
+  case LensModel::Orthographic:
+    Beside = {{{1, 0, 0}, {0, 1, 0}}};
+    for (int A = 0; A < 2; ++A)
+      split((Place[A] - Center[A]) / Focal[A], Crop.start[A],
+            Crop.start_low[A]);
+    break;
+  default:
+    Beside = {{{1, 0, -X / Z}, {0, 1, -Y / Z}}};
+    Crop.ray[0] = static_cast<float>(X / Z);
+    Crop.ray[1] = static_cast<float>(Y / Z);
+  }
+  const auto Rotation = C.worldToCameraRotation();
   for (std::size_t A = 0; A < 2; ++A) {
-    Crop.middle[A] = 0.5F * static_cast<float>(Size[A]);
-    const double Slope = (double(Crop.middle[A]) - Center[A]) / Focal[A];
-    for (std::size_t K = 0; K < 3; ++K) {
-      const double Across = Rotation[3 * A + K] - Slope * Rotation[6 + K];
-      Crop.across[A][K] = static_cast<float>(Across);
-      Crop.across_low[A][K] =
-          static_cast<float>(Across - double(Crop.across[A][K]));
-    }
+    Crop.place[A] = static_cast<float>(Place[A]);
+    for (std::size_t K = 0; K < 3; ++K)
+      split(Beside[A][0] * Rotation[K] + Beside[A][1] * Rotation[3 + K] +
+                Beside[A][2] * Rotation[6 + K],
+            Crop.across[A][K], Crop.across_low[A][K]);
   }
   return Crop;
 }

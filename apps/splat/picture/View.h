@@ -18,10 +18,11 @@ splat_lens makeLens(const Camera &C);
 splat_shutter makeShutter(const Camera &C);
 
 /// Whether the principal point is outside the picture, which is then a crop of
-/// a larger one: f x / z + c cancels.
+/// a larger one: the place's offset cancels against the principal point.
 bool isCrop(const splat_view &V);
 
-/// What lies behind the view of such a pinhole.
+/// What lies behind the view and the lens of such a camera, which is not
+/// equirectangular.
 splat_crop makeCrop(const Camera &C);
 
 /// The model by which one program draws all of \p Cameras, \p Path's: the one

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <fmt/format.h>
 #include <numeric>
 #include <utility>
@@ -188,27 +189,23 @@ bool Pipeline::hasMoreThanView() const {
 }
 
 void Pipeline::writeCamera(const Camera &C) {
-  struct {
-    splat_view View;
-    union {
-      splat_lens Lens;
-      splat_crop Crop;
-    };
-    splat_shutter Shutter;
-  } All{Current.View, {}, {}};
+  std::vector<uint32_t> Words;
+  const auto Append = [&](const auto &Part) {
+    static_assert(sizeof(Part) % sizeof(uint32_t) == 0);
+    const std::size_t At = Words.size();
+    Words.resize(At + sizeof(Part) / sizeof(uint32_t));
+    std::memcpy(&Words[At], &Part, sizeof(Part));
+  };
+  Append(Current.View);
+  if (!lensFiles(Options).empty())
+    Append(makeLens(C));
   if (Plan.done(effects::Crop))
-    All.Crop = makeCrop(C);
-  else
-    All.Lens = makeLens(C);
+    Append(makeCrop(C));
   if (Options.Rolling)
-    All.Shutter = makeShutter(C);
-  std::size_t Bytes = sizeof(All);
-  if (!Options.Rolling)
-    Bytes -= sizeof(All.Shutter);
-  if (!hasMoreThanView())
-    Bytes = sizeof(All.View);
+    Append(makeShutter(C));
+  const std::size_t Bytes = Words.size() * sizeof(uint32_t);
   Current.Camera = Launch.allocate("camera", Bytes);
-  Launch.write("camera", Current.Camera, &All, Bytes);
+  Launch.write("camera", Current.Camera, Words.data(), Bytes);
 }
 
 void Pipeline::sortByDepth() {

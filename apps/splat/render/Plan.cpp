@@ -79,6 +79,20 @@ bool uses(const ProgramSpec &P, const std::string &Define) {
   });
 }
 
+/// What a crop needs beside the lens's files.
+std::vector<std::string> cropFiles(const RenderOptions &O) {
+  switch (O.Optics) {
+  case LensModel::OpenCv:
+    return {"crop.cl", "crop_opencv.cl"};
+  case LensModel::Fisheye:
+    return {"crop.cl", "crop_fisheye.cl"};
+  case LensModel::Orthographic:
+    return {"crop.cl", "crop_orthographic.cl"};
+  default:
+    return {"crop.cl", "crop_pinhole.cl"};
+  }
+}
+
 } // namespace
 
 // Written so that a NaN depth is culled by both rules.
@@ -171,7 +185,7 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   auto &Project = Plan.Programs.front().Files;
   std::ranges::copy(lensFiles(Options), std::back_inserter(Project));
   if (Plan.Effects.done(effects::Crop))
-    Project.emplace_back("crop.cl");
+    std::ranges::copy(cropFiles(Options), std::back_inserter(Project));
   Project.emplace_back("project_memory.cl");
   if (Plan.Effects.done(effects::EquirectangularLens))
     Project.emplace_back("project_copies.cl");
