@@ -7,7 +7,9 @@
 #include "ObjectCheck.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/ServeCalls.h"
 #include "vorion/support/Tool.h"
+#include "vorion/support/ToolMessages.h"
 #include "vorion/support/Version.h"
 
 #include <algorithm>
@@ -206,5 +208,14 @@ int run(int Argc, char **Argv) {
 } // namespace
 
 int main(int Argc, char **Argv) {
-  return runTool(Tool, [&] { return run(Argc, Argv); });
+  return runTool(Tool, [&] {
+    if (Argc != 2 || std::strcmp(Argv[1], ServeCalls) != 0)
+      return run(Argc, Argv);
+    return serveCalls([&](std::vector<std::string> Arguments) {
+      std::vector<char *> All{Argv[0]};
+      for (std::string &Argument : Arguments)
+        All.push_back(Argument.data());
+      return run(static_cast<int>(All.size()), All.data());
+    });
+  });
 }

@@ -2,6 +2,7 @@
 
 #include "CompilerLibrary.h"
 #include "FileState.h"
+#include "ToolServer.h"
 
 extern "C" {
 #include "config.h"
@@ -40,6 +41,19 @@ constexpr size_t MaxRemarks = size_t{16} << 20;
 /// Options of vorion-clang, with blanks between: which remarks to print, and
 /// -mllvm (docs/backend.md).
 const char *remarkOptions() { return std::getenv("VORION_REMARKS"); }
+
+/// Remarks change the options of LLVM, which one process keeps for all calls;
+/// and a process takes from its environment where reports of resources go.
+bool mayAskServers() {
+  const char *Wanted = std::getenv("VORION_TOOL_SERVERS");
+  return !remarkOptions() && !std::getenv("VORION_RESOURCES") &&
+         !(Wanted && std::string_view(Wanted) == "0");
+}
+
+std::string failure(const std::string &Tool, int Code,
+                    const std::string &Printed) {
+  return Tool + " failed (" + std::to_string(Code) + ")\n" + Printed;
+}
 
 /// Where of bitcode nothing is known but what it says itself, clang prints
 /// "remark: k.cl:3:5: text"; everywhere else "k.cl:3:5: remark: text". A kernel
@@ -112,6 +126,13 @@ std::string Tools::fingerprint() const {
 std::string Tools::run(std::vector<std::string> Arguments) const {
   if (!Problem.empty())
     return Problem;
+  if (mayAskServers())
+    if (const auto Answer = askToolServer(
+            Arguments[0], {Arguments.begin() + 1, Arguments.end()}))
+      return Answer->Code == 0
+                 ? std::string()
+                 : failure(Arguments[0], Answer->Code,
+                           Answer->Printed.substr(0, MaxToolOutput));
   std::vector<char *> Pointers;
   for (std::string &Argument : Arguments)
     Pointers.push_back(Argument.data());
@@ -126,7 +147,7 @@ std::string Tools::run(std::vector<std::string> Arguments) const {
       printRemarks(Output);
     return {};
   }
-  return Arguments[0] + " failed (" + std::to_string(Status) + ")\n" + Output;
+  return failure(Arguments[0], Status, Output);
 }
 
 std::string Tools::compile(const std::string &Bitcode,

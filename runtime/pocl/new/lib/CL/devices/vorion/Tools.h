@@ -1,6 +1,6 @@
-/// The compiler and linker of device code, run as processes: LLVM's command
-/// line options are registered once a process, and ours differ from PoCL's
-/// LLVM.
+/// The compiler and linker of device code, run in processes beside this one:
+/// LLVM's command line options are registered once a process, and ours differ
+/// from PoCL's LLVM.
 #pragma once
 
 #include <string>
