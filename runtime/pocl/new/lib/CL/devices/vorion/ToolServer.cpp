@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
@@ -17,24 +18,36 @@ namespace vorion {
 
 namespace {
 
+/// Which file a descriptor is of; 0 of none.
+ino_t fileOf(int Descriptor) {
+  struct stat State{};
+  return fstat(Descriptor, &State) == 0 && S_ISSOCK(State.st_mode)
+             ? State.st_ino
+             : 0;
+}
+
 /// The other end of a server's standard input. The server ends when it is
-/// closed, so with this process at the latest.
+/// closed, so with this process at the latest. A program may close all
+/// descriptors that it does not know, and get the number for a file of its own:
+/// that one is left alone.
 class Server {
 public:
-  explicit Server(int Socket) : Socket(Socket) {}
-  Server(Server &&Other) noexcept : Socket(std::exchange(Other.Socket, -1)) {}
+  explicit Server(int Socket) : Socket(Socket), File(fileOf(Socket)) {}
+  Server(Server &&Other) noexcept
+      : Socket(Other.Socket), File(std::exchange(Other.File, 0)) {}
   Server &operator=(Server &&Other) noexcept {
     std::swap(Socket, Other.Socket);
+    std::swap(File, Other.File);
     return *this;
   }
   ~Server() {
-    if (Socket >= 0)
+    if (isThere())
       close(Socket);
   }
 
   /// Nothing if the server has gone, as it does after some time.
   std::optional<ToolAnswer> call(const std::vector<std::string> &Arguments) {
-    if (!sendText(Socket, callText(Arguments)))
+    if (!isThere() || !sendText(Socket, callText(Arguments)))
       return std::nullopt;
     const auto Answer = receiveText(Socket);
     const size_t Blank = Answer ? Answer->find(' ') : std::string::npos;
@@ -44,7 +57,10 @@ public:
   }
 
 private:
+  bool isThere() const { return File != 0 && fileOf(Socket) == File; }
+
   int Socket;
+  ino_t File; ///< 0 if it is another's
 };
 
 /// A server of \p Tool. What is started ends at once and leaves the server to
