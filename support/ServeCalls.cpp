@@ -3,7 +3,6 @@
 #include "vorion/support/ToolMessages.h"
 
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <fcntl.h>
 #include <poll.h>
@@ -11,6 +10,7 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <vector>
 
 namespace vorion {
 namespace {
@@ -56,27 +56,33 @@ bool hasMuchMemory() {
 
 } // namespace
 
-int serveCalls(const std::function<int(std::vector<std::string>)> &Call) {
+int serveCalls(char *Name, const std::function<int(std::span<char *>)> &Call) {
   const pid_t Child = ::fork();
   if (Child != 0)
     return Child < 0 ? 1 : 0;
   // Away from the terminal's signals, and from what the client has open.
   ::setsid();
-  const int Socket = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3);
-  if (Socket < 0 || ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO) < 0)
+  constexpr int Socket = STDERR_FILENO + 1;
+  if (::dup3(STDIN_FILENO, Socket, O_CLOEXEC) < 0)
     return 1;
-  const int Lowest = ::dup3(Socket, 3, O_CLOEXEC) < 0 ? Socket : 3;
-  ::close_range(static_cast<unsigned>(Lowest) + 1, ~0U, 0);
+  ::close_range(Socket + 1, ~0U, 0);
+  ::close(STDIN_FILENO);
+  if (::open("/dev/null", O_RDONLY) != STDIN_FILENO)
+    return 1;
   Printed Output;
   if (!Output.good())
     return 1;
-  while (isCalled(Lowest)) {
-    const auto Text = receiveText(Lowest);
+  while (isCalled(Socket)) {
+    const auto Text = receiveText(Socket);
     if (!Text)
       break;
-    const int Code = Call(argumentsOf(*Text));
+    std::vector<std::string> Arguments = argumentsOf(*Text);
+    std::vector<char *> All{Name};
+    for (std::string &Argument : Arguments)
+      All.push_back(Argument.data());
+    const int Code = Call(All);
     std::fflush(nullptr);
-    if (!sendText(Lowest, std::to_string(Code) + " " + Output.take()) ||
+    if (!sendText(Socket, std::to_string(Code) + " " + Output.take()) ||
         Code != 0 || hasMuchMemory())
       break;
   }

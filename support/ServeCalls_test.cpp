@@ -40,11 +40,12 @@ int served() {
   const pid_t Child = ::fork();
   if (Child == 0) {
     ::dup2(Ends[1], STDIN_FILENO);
-    ::_exit(serveCalls([](const std::vector<std::string> &Arguments) {
-      for (const std::string &A : Arguments)
-        std::printf("(%s)", A.c_str());
+    std::string Name = "tool";
+    ::_exit(serveCalls(Name.data(), [](std::span<char *> Call) {
+      for (const char *A : Call.subspan(1))
+        std::printf("(%s)", A);
       std::fprintf(stderr, "!");
-      return Arguments.at(0) == "fail" ? 3 : 0;
+      return std::string_view(Call[1]) == "fail" ? 3 : 0;
     }));
   }
   ::close(Ends[1]);

@@ -211,11 +211,8 @@ int main(int Argc, char **Argv) {
   return runTool(Tool, [&] {
     if (Argc != 2 || std::strcmp(Argv[1], ServeCalls) != 0)
       return run(Argc, Argv);
-    return serveCalls([&](std::vector<std::string> Arguments) {
-      std::vector<char *> All{Argv[0]};
-      for (std::string &Argument : Arguments)
-        All.push_back(Argument.data());
-      return run(static_cast<int>(All.size()), All.data());
+    return serveCalls(Argv[0], [](std::span<char *> Call) {
+      return run(static_cast<int>(Call.size()), Call.data());
     });
   });
 }

@@ -20,6 +20,7 @@
 #include "llvm/Support/raw_ostream.h"
 
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -86,11 +87,8 @@ int main(int Argc, char **Argv) {
       Argv[0], reinterpret_cast<void *>(&main)));
   std::vector<llvm::StringRef> Arguments(Argv + 1, Argv + Argc);
   if (Argc == 2 && Arguments[0] == vorion::ServeCalls)
-    return vorion::serveCalls([&](std::vector<std::string> Call) {
-      std::vector<char *> All{Argv[0]};
-      for (std::string &Argument : Call)
-        All.push_back(Argument.data());
-      const int Code = runClang(All);
+    return vorion::serveCalls(Argv[0], [](std::span<char *> Call) {
+      const int Code = runClang({Call.data(), Call.size()});
       llvm::outs().flush();
       return Code;
     });

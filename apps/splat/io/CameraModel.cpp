@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace vorion::splat {
@@ -37,6 +38,17 @@ Polynomial product(const Polynomial &A, const Polynomial &B) {
   return P;
 }
 
+/// Between \p Low, where \p Before is true, and \p High: from where on it is
+/// false, to the last bit.
+template <typename Predicate>
+double border(double Low, double High, const Predicate &Before) {
+  for (int K = 0; K < 200; ++K) {
+    const double Middle = 0.5 * (Low + High);
+    (Before(Middle) ? Low : High) = Middle;
+  }
+  return High;
+}
+
 /// Where \p P changes its sign between 0 and \p End, in order: between two
 /// neighbouring ones of its derivative there is at most one.
 std::vector<double> signChanges(const Polynomial &P, double End) {
@@ -47,16 +59,11 @@ std::vector<double> signChanges(const Polynomial &P, double End) {
   std::vector<double> Found;
   double From = 0;
   for (const double To : Borders) {
-    double Low = From, High = To;
-    From = To;
+    const double Low = std::exchange(From, To);
     const bool Rises = at(P, Low) < 0;
-    if (Rises == (at(P, High) < 0))
-      continue;
-    for (int K = 0; K < 200; ++K) {
-      const double Middle = 0.5 * (Low + High);
-      ((at(P, Middle) < 0) == Rises ? Low : High) = Middle;
-    }
-    Found.push_back(High);
+    if (Rises != (at(P, To) < 0))
+      Found.push_back(
+          border(Low, To, [&](double X) { return (at(P, X) < 0) == Rises; }));
   }
   return Found;
 }
@@ -71,6 +78,11 @@ std::array<double, 4> under(const LensCoefficients &K) {
 }
 std::array<double, 5> ofAngle(const LensCoefficients &K) {
   return {1, K[0], K[1], K[2], K[3]};
+}
+
+/// How far from the middle a fisheye shows what is at \p Angle from the axis.
+double fisheyePlace(const LensCoefficients &K, double Angle) {
+  return Angle * at(ofAngle(K), Angle * Angle);
 }
 
 /// As one that can be derived and multiplied.
@@ -156,10 +168,8 @@ std::span<const std::string_view> CameraModel::keys() const {
 double CameraModel::radius(double R) const {
   if (Model == LensModel::OpenCv)
     return R * at(over(K), R * R) / at(under(K), R * R);
-  if (Model == LensModel::Fisheye) {
-    const double Angle = std::atan(R);
-    return Angle * at(ofAngle(K), Angle * Angle);
-  }
+  if (Model == LensModel::Fisheye)
+    return fisheyePlace(K, std::atan(R));
   return R;
 }
 
@@ -194,12 +204,8 @@ double CameraModel::limit() const {
 }
 
 double CameraModel::undistorted(double Distorted) const {
-  double Low = 0, High = std::min(limit(), 1e3);
-  for (int I = 0; I < 200; ++I) {
-    const double R = 0.5 * (Low + High);
-    (radius(R) < Distorted ? Low : High) = R;
-  }
-  return High;
+  return border(0, std::min(limit(), 1e3),
+                [&](double R) { return radius(R) < Distorted; });
 }
 
 std::optional<std::array<double, 3>> CameraModel::direction(double X,
@@ -214,15 +220,12 @@ std::optional<std::array<double, 3>> CameraModel::direction(double X,
     return std::array{0.0, 0.0, 1.0};
   case LensModel::Fisheye: {
     // The distorted angle grows up to the limit.
-    double Low = 0, High = limit();
-    if (!(Distance < High * at(ofAngle(K), High * High)))
+    if (!(Distance < fisheyePlace(K, limit())))
       return std::nullopt;
-    for (int I = 0; I < 200; ++I) {
-      const double Angle = 0.5 * (Low + High);
-      (Angle * at(ofAngle(K), Angle * Angle) < Distance ? Low : High) = Angle;
-    }
-    const double Across = Distance > 0 ? std::sin(High) / Distance : 0;
-    return std::array{X * Across, Y * Across, std::cos(High)};
+    const double Angle = border(
+        0, limit(), [&](double A) { return fisheyePlace(K, A) < Distance; });
+    const double Across = Distance > 0 ? std::sin(Angle) / Distance : 0;
+    return std::array{X * Across, Y * Across, std::cos(Angle)};
   }
   case LensModel::OpenCv:
     break;

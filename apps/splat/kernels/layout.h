@@ -61,8 +61,8 @@ typedef struct {
 typedef struct {
   float across[2][3];     ///< how far beside that ray, by world axis,
   float across_low[2][3]; ///< as high + low
-  float start[2];         ///< what is to be taken away: of parallel rays, the
-  float start_low[2];     ///< distance of that ray from the axis
+  float start[2];         ///< of parallel rays: how far that ray passes beside
+  float start_low[2];     ///< the axis, as high + low; else 0
   float place[2];         ///< of that ray, px
   float ray[5];           ///< what the model has to know of it (crop_*.cl)
 } splat_crop;

@@ -17,6 +17,21 @@ namespace vorion {
 /// The argument of a tool that is to serve calls over its standard input.
 inline constexpr const char *ServeCalls = "--serve-calls";
 
+/// Whether \p Bytes bytes have gone, of which \p Move moves some at a time: it
+/// gets how many have gone, and gives what send() and recv() give.
+template <typename Function>
+bool allMoved(std::size_t Bytes, const Function &Move) {
+  for (std::size_t Done = 0; Done < Bytes;) {
+    const ssize_t Some = Move(Done);
+    if (Some < 0 && errno == EINTR)
+      continue;
+    if (Some <= 0)
+      return false;
+    Done += static_cast<std::size_t>(Some);
+  }
+  return true;
+}
+
 /// Whether all of \p Text went through \p Socket. No signal says that nobody
 /// reads there.
 inline bool sendText(int Socket, std::string_view Text) {
@@ -24,30 +39,17 @@ inline bool sendText(int Socket, std::string_view Text) {
   std::string All(sizeof(Length), '\0');
   std::memcpy(All.data(), &Length, sizeof(Length));
   All += Text;
-  for (std::size_t Done = 0; Done < All.size();) {
-    const ssize_t Sent =
-        ::send(Socket, All.data() + Done, All.size() - Done, MSG_NOSIGNAL);
-    if (Sent < 0 && errno == EINTR)
-      continue;
-    if (Sent <= 0)
-      return false;
-    Done += static_cast<std::size_t>(Sent);
-  }
-  return true;
+  return allMoved(All.size(), [&](std::size_t Done) {
+    return ::send(Socket, All.data() + Done, All.size() - Done, MSG_NOSIGNAL);
+  });
 }
 
 /// The next text of \p Socket; nothing if the other side is gone.
 inline std::optional<std::string> receiveText(int Socket) {
   const auto Fill = [Socket](char *To, std::size_t Bytes) {
-    for (std::size_t Done = 0; Done < Bytes;) {
-      const ssize_t Got = ::recv(Socket, To + Done, Bytes - Done, 0);
-      if (Got < 0 && errno == EINTR)
-        continue;
-      if (Got <= 0)
-        return false;
-      Done += static_cast<std::size_t>(Got);
-    }
-    return true;
+    return allMoved(Bytes, [&](std::size_t Done) {
+      return ::recv(Socket, To + Done, Bytes - Done, 0);
+    });
   };
   uint64_t Length = 0;
   if (!Fill(reinterpret_cast<char *>(&Length), sizeof(Length)))

@@ -35,11 +35,6 @@ public:
   explicit Server(int Socket) : Socket(Socket), File(fileOf(Socket)) {}
   Server(Server &&Other) noexcept
       : Socket(Other.Socket), File(std::exchange(Other.File, 0)) {}
-  Server &operator=(Server &&Other) noexcept {
-    std::swap(Socket, Other.Socket);
-    std::swap(File, Other.File);
-    return *this;
-  }
   ~Server() {
     if (isThere())
       close(Socket);
