@@ -115,27 +115,28 @@ public:
         W += ByAfter;
       }
     }
-    Out.Means[I] = shape(I, V);
-    if (View.Shutter && S.ByPoints)
-      Out.Means[I] += throughDilation(I, W);
+    Out.Means[I] = shape(I, V, W);
     if (Input.Colors.empty())
       color(I);
   }
 
 private:
-  /// From dL/d(covariance) to scales, rotation and, through the mean's place in
-  /// the camera, the mean, which is returned.
-  dvec3 shape(std::size_t I, const Symmetric &V) {
+  /// From dL/d(covariance) and dL/d(what dilation adds to it) to scales,
+  /// rotation and, through the mean's place in the camera, the mean, which is
+  /// returned.
+  dvec3 shape(std::size_t I, const Symmetric &V, const Symmetric &W) {
     const dvec3 P = multiply(View.Rotation, Input.Means[I]) + View.Translation;
     const dmat3 Q = rotation(Input.Quats[I]);
     dmat3 A;
     for (int N = 0; N < 3; ++N)
       A[N] = multiply(View.Rotation, Q[N]) * Input.Scales[I][N];
     if (Settings.Through == Spread::Unscented)
-      if (const auto Points = sevenPoints(P, A, View, Settings))
-        return throughPoints(I, V, P, Q, *Points);
+      if (const auto Points = sevenPoints(P, A, View, Settings)) {
+        const dvec3 ByMean = throughPoints(I, V, P, Q, *Points);
+        return View.Shutter ? ByMean + throughDilation(P, W) : ByMean;
+      }
     if (View.Shutter)
-      return throughShutter(I, V, P, Q, A);
+      return throughShutter(I, V, W, P, Q, A);
     if (View.Optics.Model != LensModel::Pinhole)
       return throughLens(I, V, P, Q, A);
     const Jacobian<double> J = jacobian(P, View, Settings.Rule);
@@ -143,14 +144,14 @@ private:
     const LensRows<double> ByRows =
         toAxes(I, V, F, {{J.XX, 0, J.XZ}, {0, J.YY, J.YZ}}, Q, A);
 
-    const double Z = P.z, ZZ = Z * Z;
     const dvec2 &M = Out.Means2d[I];
-    dvec3 ByP(View.Focal.x / Z * M.x, View.Focal.y / Z * M.y,
-              -(View.Focal.x * P.x * M.x + View.Focal.y * P.y * M.y) / ZZ);
-    ByP.z -= (View.Focal.x * ByRows.X.x + View.Focal.y * ByRows.Y.y) / ZZ;
-    ByP.x += held(J.HeldX, View.Focal.x, J.Tx, Z, ByRows.X.z, ByP.z);
-    ByP.y += held(J.HeldY, View.Focal.y, J.Ty, Z, ByRows.Y.z, ByP.z);
-    return glm::transpose(View.Rotation) * ByP;
+    const double Z = P.z;
+    const dvec3 ByPlace(View.Focal.x / Z * M.x, View.Focal.y / Z * M.y,
+                        -(View.Focal.x * P.x * M.x + View.Focal.y * P.y * M.y) /
+                            (Z * Z));
+    return glm::transpose(View.Rotation) *
+           (ByPlace +
+            backThroughJacobian(J, Z, View.Focal, Settings.Rule, ByRows));
   }
 
   dvec3 throughPoints(std::size_t I, const Symmetric &V, const dvec3 &P,
@@ -169,23 +170,28 @@ private:
   }
 
   /// Behind a shutter the mean's place says how the dilation is sheared.
-  dvec3 throughDilation(std::size_t I, const Symmetric &W) {
-    const dvec3 P = multiply(View.Rotation, Input.Means[I]) + View.Translation;
+  dvec3 throughDilation(const dvec3 &P, const Symmetric &W) {
     ExposedPoint E;
     expose(View, P, Settings.Rule, E);
-    const glm::dmat2 By(W[0], W[1], W[1], W[2]);
     return glm::transpose(View.Rotation) *
-           backThroughShear(View, P, 2 * Settings.Dilation * By * E.FreeShear);
+           backThroughShutter(View, P, std::nullopt,
+                              {{dvec3(0), dvec3(0)}, byShear(W, E.FreeShear)});
+  }
+  glm::dmat2 byShear(const Symmetric &W, const glm::dmat2 &Shear) const {
+    return 2 * Settings.Dilation * glm::dmat2(W[0], W[1], W[1], W[2]) * Shear;
   }
 
-  /// The rows of the Jacobian are constants here (Backward.h).
-  dvec3 throughShutter(std::size_t I, const Symmetric &V, const dvec3 &P,
-                       const dmat3 &Q, const dmat3 &A) {
+  dvec3 throughShutter(std::size_t I, const Symmetric &V, const Symmetric &W,
+                       const dvec3 &P, const dmat3 &Q, const dmat3 &A) {
     ExposedPoint E;
     expose(View, P, Settings.Rule, E);
-    toAxes(I, V, footprint(A, E.Rows), E.Rows, Q, A);
+    const LensRows<double> ByRows =
+        toAxes(I, V, footprint(A, E.Rows), E.Rows, Q, A);
     const dvec2 &M = Out.Means2d[I];
-    return glm::transpose(View.Rotation) * (M.x * E.Free.X + M.y * E.Free.Y);
+    return glm::transpose(View.Rotation) *
+           (M.x * E.Free.X + M.y * E.Free.Y +
+            backThroughShutter(View, P, Settings.Rule,
+                               {ByRows, byShear(W, E.Shear)}));
   }
 
   dvec3 throughLens(std::size_t I, const Symmetric &V, const dvec3 &P,
@@ -215,17 +221,6 @@ private:
     }
     Out.Quats[I] = quaternionGradient(Input.Quats[I], ByRotation);
     return ByRows;
-  }
-
-  /// The part of the Jacobian's entry -f t / z^2: adds to \p ByZ, returns that
-  /// of the other coordinate.
-  double held(bool Held, double Focal, double T, double Z, double ByEntry,
-              double &ByZ) const {
-    const double ZZ = Z * Z;
-    // t = limit z, so that the entry is -f limit / z; or t is a constant.
-    const double Factor = Held && Settings.Rule == Rules::Gsplat ? 1 : 2;
-    ByZ += Factor * Focal * T / (ZZ * Z) * ByEntry;
-    return Held ? 0 : -Focal / ZZ * ByEntry;
   }
 
   void color(std::size_t I) {

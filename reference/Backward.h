@@ -51,9 +51,7 @@ struct Gradients {
 
 /// \c blendBackward and the way back through \c project. INRIA's rules take a
 /// coordinate that the Jacobian holds at its limit for a constant; gsplat's
-/// differentiate the limit. Through a rolling shutter, the Jacobian of those
-/// that do not go through the camera as points is a constant. Gaussians that
-/// are not seen have gradients 0.
+/// differentiate the limit. Gaussians that are not seen have gradients 0.
 Gradients renderBackward(const Gaussians<double> &G, const Camera<double> &C,
                          const Upstream &U, const Options &O);
 

@@ -79,6 +79,25 @@ Jacobian<Real> jacobian(const Vec3<Real> &P, const Camera<Real> &C,
   return J;
 }
 
+/// dL/d(point) from dL/d(rows) of its Jacobian \p J at the depth \p Z. Where a
+/// coordinate is held, INRIA's rules take it as a constant, and gsplat's
+/// differentiate its limit.
+inline glm::dvec3 backThroughJacobian(const Jacobian<double> &J, double Z,
+                                      const glm::dvec2 &Focal, Rules Rule,
+                                      const LensRows<double> &ByRows) {
+  const double ZZ = Z * Z;
+  glm::dvec3 By(0, 0, -(Focal.x * ByRows.X.x + Focal.y * ByRows.Y.y) / ZZ);
+  // The entry -f t / z^2, where t may be limit z.
+  const auto Entry = [&](bool Held, double F, double T, double ByEntry) {
+    const double Factor = Held && Rule == Rules::Gsplat ? 1 : 2;
+    By.z += Factor * F * T / (ZZ * Z) * ByEntry;
+    return Held ? 0 : -F / ZZ * ByEntry;
+  };
+  By.x = Entry(J.HeldX, Focal.x, J.Tx, ByRows.X.z);
+  By.y = Entry(J.HeldY, Focal.y, J.Ty, ByRows.Y.z);
+  return By;
+}
+
 /// The rows of J A.
 template <typename Real> struct Footprint {
   Vec3<Real> X, Y;

@@ -89,24 +89,55 @@ public:
             turned(S.Turn, Moment, M[0].y * J.X + M[1].y * J.Y)};
   }
 
-  /// dL/d(point in the axes of the pose) from dL/d(shear of the free rows), at
-  /// the point's own moment.
-  glm::dvec3 backThroughShear(const glm::dmat2 &By) const {
+  /// dL/d(point in the axes of the pose) at the point's own moment, from what
+  /// the rows \p Rule holds give.
+  glm::dvec3 back(std::optional<Rules> Rule, const ByExposedPoint &By) const {
+    const LensRows<double> J =
+        Rule ? heldRows(C, At, *Rule) : freeRowsThrough(C, At);
+    const glm::dvec3 StillX = turned(S.Turn, Moment, J.X),
+                     StillY = turned(S.Turn, Moment, J.Y);
+    const glm::dmat2 M = shear(J);
+    // The rows are M times the still camera's.
+    const glm::dvec3 ByStillX = M[0].x * By.Rows.X + M[0].y * By.Rows.Y,
+                     ByStillY = M[1].x * By.Rows.X + M[1].y * By.Rows.Y;
+    LensRows<double> ByJ{turned(S.Turn, -Moment, ByStillX),
+                         turned(S.Turn, -Moment, ByStillY)};
     if (isHeld())
-      return glm::dvec3(0);
-    const LensRows<double> J = freeRowsThrough(C, At);
-    // The shear is 1 + drift way^T / left, and left is 1 - way . drift.
+      return turned(S.Turn, Moment, backThroughRows(Rule, ByJ));
+    const glm::dmat2 ByShear =
+        By.Shear +
+        glm::dmat2(glm::dot(By.Rows.X, StillX), glm::dot(By.Rows.Y, StillX),
+                   glm::dot(By.Rows.X, StillY), glm::dot(By.Rows.Y, StillY));
+    // The shear is 1 + drift way^T / left, and left is 1 - way . drift, or
+    // held.
+    const glm::dvec2 Own = drift(J), ByWay = ByShear * Way;
+    const double Free = 1 - glm::dot(Way, Own), Left = std::max(Free, Least);
     const glm::dvec2 ByDrift =
-        By * Way / left() + glm::dot(Drift, By * Way) / (left() * left()) * Way;
+        ByWay / Left +
+        (Free > Least ? glm::dot(Own, ByWay) / (Left * Left) : 0.) * Way;
     const glm::dvec3 ByRate = ByDrift.x * J.X + ByDrift.y * J.Y;
-    const glm::dvec3 ByAt = backThrough(C, At, std::nullopt, glm::dvec2(0),
-                                        {ByDrift.x * Rate, ByDrift.y * Rate}) +
-                            glm::cross(S.Turn, ByRate);
+    ByJ.X += ByDrift.x * Rate;
+    ByJ.Y += ByDrift.y * Rate;
+    const glm::dvec3 ByAt =
+        backThroughRows(Rule, ByJ) + glm::cross(S.Turn, ByRate);
     const double ByMoment =
         glm::dot(ByAt, Rate) +
-        glm::dot(ByRate, glm::cross(S.Turn, turned(S.Turn, -Moment, S.Motion)));
+        glm::dot(ByRate,
+                 glm::cross(S.Turn, turned(S.Turn, -Moment, S.Motion))) +
+        glm::dot(S.Turn,
+                 glm::cross(StillX, ByStillX) + glm::cross(StillY, ByStillY));
+    const LensRows<double> Unheld = freeRowsThrough(C, At);
     return turned(S.Turn, Moment,
-                  ByAt + ByMoment / left() * (Way.x * J.X + Way.y * J.Y));
+                  ByAt + ByMoment / left() *
+                             (Way.x * Unheld.X + Way.y * Unheld.Y));
+  }
+  /// dL/d(point to the camera now) from dL/d(rows by it).
+  glm::dvec3 backThroughRows(std::optional<Rules> Rule,
+                             const LensRows<double> &By) const {
+    if (!Rule || C.Optics.Model != LensModel::Pinhole)
+      return backThrough(C, At, Rule, glm::dvec2(0), By);
+    return backThroughJacobian(jacobian(At, C, *Rule), At.z, C.Focal, *Rule,
+                               By);
   }
 
   const Camera<double> &C;
@@ -152,10 +183,11 @@ bool expose(const Camera<Real> &Of, const glm::dvec3 &P, Rules Rule,
   return true;
 }
 
-glm::dvec3 backThroughShear(const Camera<double> &C, const glm::dvec3 &P,
-                            const glm::dmat2 &By) {
+glm::dvec3 backThroughShutter(const Camera<double> &C, const glm::dvec3 &P,
+                              std::optional<Rules> Rule,
+                              const ByExposedPoint &By) {
   Exposure E(C, P);
-  return E.goToOwnMoment() ? E.backThroughShear(By) : glm::dvec3(0);
+  return E.goToOwnMoment() ? E.back(Rule, By) : glm::dvec3(0);
 }
 
 template bool expose(const Camera<float> &, const glm::dvec3 &, Rules,

@@ -39,8 +39,16 @@ template <typename Real>
 bool expose(const Camera<Real> &C, const glm::dvec3 &P, Rules Rule,
             ExposedPoint &Found);
 
-/// dL/dP from dL/d(ExposedPoint::FreeShear) of a point that \p C sees.
-glm::dvec3 backThroughShear(const Camera<double> &C, const glm::dvec3 &P,
-                            const glm::dmat2 &By);
+/// dL/d(Rows) and dL/d(Shear) of an \c ExposedPoint.
+struct ByExposedPoint {
+  LensRows<double> Rows;
+  glm::dmat2 Shear;
+};
+
+/// dL/dP of a point that \p C sees from \p By, of the rows that \p Rule holds,
+/// or of those that are held nowhere.
+glm::dvec3 backThroughShutter(const Camera<double> &C, const glm::dvec3 &P,
+                              std::optional<Rules> Rule,
+                              const ByExposedPoint &By);
 
 } // namespace vorion::reference

@@ -140,8 +140,6 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
     return C.error();
   A.Options.Optics = C->Optics.Model;
   A.Options.Rolling = C->Optics.Shutter.has_value();
-  if (auto Checked = checkGradientCamera(*C, A.Options); !Checked)
-    return Checked;
   const auto U = readUpstream(A.Upstream, *C);
   if (!U)
     return U.error();

@@ -269,15 +269,6 @@ Expected<Success> checkPixelLists(const RenderOptions &O,
                            Option));
 }
 
-Expected<Success> checkGradientCamera(const Camera &C, const RenderOptions &O) {
-  if (!C.Optics.Shutter || O.Through == Spread::Unscented)
-    return Success{};
-  return usage(fmt::format("view {} has a rolling shutter, through which the "
-                           "way back goes by points alone, expected "
-                           "--projection unscented with it",
-                           printable(C.Name)));
-}
-
 std::string toString(const BackwardOptions &B, Path Blending) {
   if (Blending != Path::Raster) {
     switch (B.Pixels) {

@@ -78,10 +78,6 @@ void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B);
 Expected<Success> checkPixelLists(const RenderOptions &O,
                                   std::string_view Option);
 
-/// Whether gradients can be taken through \p C as \p O says; an error is one of
-/// usage.
-Expected<Success> checkGradientCamera(const Camera &C, const RenderOptions &O);
-
 /// Whether all values go together; an error is one of usage.
 Expected<Success> checkGradientOptions(const RenderOptions &O,
                                        const BackwardOptions &B);

@@ -116,12 +116,7 @@ static shape_gradients jacobian_backward(__constant const splat_view *view,
       (float3)((scale[1] - scale[2]) * (scale[1] + scale[2]) * by_pair[1][2],
                (scale[2] - scale[0]) * (scale[2] + scale[0]) * by_pair[0][2],
                (scale[0] - scale[1]) * (scale[0] + scale[1]) * by_pair[0][1]);
-#if USE_ROLLING_SHUTTER
-  // The rows of the Jacobian are constants (docs/cameras.md).
-  const lens_rows free =
-      rolling_moved(rolling_rows_at(view, lens, &own, false));
-  to.place = free.x * by->mean.x + free.y * by->mean.y;
-#elif HAS_LENS
+#if HAS_LENS
   // dL/d(rows): 2 V U diag(s^2) times the axes.
   lens_rows by_rows = {(float3)(0.0f, 0.0f, 0.0f), (float3)(0.0f, 0.0f, 0.0f)};
   const float3 along[3] = {(float3)(axes.x.x, axes.y.x, axes.z.x),
@@ -132,11 +127,20 @@ static shape_gradients jacobian_backward(__constant const splat_view *view,
     by_rows.x += weight * by_axis[n].x * along[n];
     by_rows.y += weight * by_axis[n].y * along[n];
   }
+#if USE_ROLLING_SHUTTER
+  const lens_rows free =
+      rolling_moved(rolling_rows_at(view, lens, &own, false));
+  to.place = free.x * by->mean.x + free.y * by->mean.y +
+             rolling_rows_backward(view, lens, &own,
+                                   rolling_by_way(lens, rows.shear, by),
+                                   &by_rows, LENS_HOLDS);
+#else
   by_rows.x *= view->focal[0];
   by_rows.y *= view->focal[1];
   const lens_rows free = lens_rows_at(view, lens, g->place, false);
   to.place = free.x * by->mean.x + free.y * by->mean.y +
              lens_curvature(view, lens, g->place, by_rows, LENS_HOLDS);
+#endif
 #else
   // dL/d(Jacobian's entries): 2 V U diag(s^2) times the axes.
   float by_xx = 0.0f, by_xz = 0.0f, by_yy = 0.0f, by_yz = 0.0f;

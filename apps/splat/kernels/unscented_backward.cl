@@ -64,9 +64,12 @@ static bool unscented_backward(__constant const splat_view *view,
   const float2 by_shift = -2.8284271f * by_off[6];
   to->place = point_backward(view, lens, &mean, -by_shift);
 #if USE_ROLLING_SHUTTER
-  to->place += rolling_dilation_backward(
-      view, lens, &mean.own, shear, by,
-      by_share_kept(s, by->opacity, g->activated.w));
+  // The mean's rows shear the dilation.
+  to->place += rolling_rows_backward(
+      view, lens, &mean.own,
+      rolling_dilation_by_way(lens, shear, by,
+                              by_share_kept(s, by->opacity, g->activated.w)),
+      0, false);
 #endif
   float3 by_axis[3];
   for (uint n = 0; n < 6; ++n) {

@@ -218,7 +218,6 @@ py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
         [&](CLI::App &App) { addGradientOptions(App, O, B); });
   O.Optics = C.Optics.Model;
   O.Rolling = C.Optics.Shutter.has_value();
-  valueOf(checkGradientCamera(C, O));
   valueOf(checkGradientOptions(O, B));
   valueOf(checkBlends(M.device(), O.Blending));
   B.Parameters = Stored ? GradientsOf::Stored : GradientsOf::Activated;

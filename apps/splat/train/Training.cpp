@@ -376,10 +376,6 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   const auto Model = commonModel(R.Capture, Cameras);
   if (!Model)
     return Model.error();
-  if (isRolling(Cameras) && R.Run.Through != Spread::Unscented)
-    return Error{R.Capture,
-                 "photographs with a rolling shutter, expected --projection "
-                 "unscented with --distorted"};
   if (looksAtDepths(R.Run.Settings) && Pictures->depths() == 0)
     return Error{R.Capture, "no training picture shows a point of the capture, "
                             "expected COLMAP's points with their tracks for "

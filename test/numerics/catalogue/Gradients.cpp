@@ -269,12 +269,9 @@ TrainingCase throughLens(splat::LensModel M, std::string Name,
   return caseOf(std::move(Name), std::move(Why), sceneOfLens(M), {});
 }
 
-/// As seven points. Of the wide Gaussians the camera does not see some, so that
-/// these go back through the Jacobian, one of them where it is held. With \p
-/// Rolls a shutter rolls down and across while the camera moves and turns.
-TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
-                           std::string Why) {
-  GradientScene G = sceneOfLens(M);
+/// Wide Gaussians, one far beside the picture, where a pinhole's Jacobian is
+/// held.
+void addWide(GradientScene &G) {
   Numbers R(86);
   for (const float X : {-0.3F, 0.2F, 2.8F})
     add(G.Scene, {.Mean = {X, 0.1F, 2},
@@ -282,12 +279,37 @@ TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
                   .Quat = R.turn(),
                   .Opacity = 0.3,
                   .Color = R.color()});
+}
+
+/// It rolls down and across while the camera moves and turns.
+void addShutter(GradientScene &G) {
+  G.Options.Rolling = true;
+  G.View.Optics.Shutter = {-0.1, 0.2, 1, {0.1, -0.15, 0.05}, {0.05, -0.1, 0.1}};
+}
+
+/// By the Jacobian, whose rows depend on the mean's moment.
+TrainingCase throughShutter(splat::LensModel M, splat::Rules Convention,
+                            std::string Name, std::string Why) {
+  GradientScene G = sceneOfLens(M);
+  addWide(G);
+  addShutter(G);
+  G.Options.Antialiased = true;
+  G.Options.Convention = Convention;
+  return caseOf(std::move(Name), std::move(Why), std::move(G),
+                {"moment-forgotten-behind", "rows-of-a-shutter-kept"});
+}
+
+/// As seven points. Of the wide Gaussians the camera does not see some, so that
+/// these go back through the Jacobian, one of them where it is held. With \p
+/// Rolls a shutter rolls.
+TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
+                           std::string Why) {
+  GradientScene G = sceneOfLens(M);
+  addWide(G);
   G.Options.Through = splat::Spread::Unscented;
   G.Options.Antialiased = !Rolls;
-  G.Options.Rolling = Rolls;
   if (Rolls)
-    G.View.Optics.Shutter = {
-        -0.1, 0.2, 1, {0.1, -0.15, 0.05}, {0.05, -0.1, 0.1}};
+    addShutter(G);
   std::vector<std::string> FoundIn{"points-forget-their-shift"};
   if (M == splat::LensModel::Pinhole)
     FoundIn.emplace_back("held-slope-of-no-depth");
@@ -298,7 +320,8 @@ TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
 }
 
 /// Thinner than a pixel, so that the shutter's shear of the dilation counts.
-TrainingCase rollingDilation() {
+TrainingCase rollingDilation(splat::Spread Through, std::string Name,
+                             std::string FoundIn) {
   GradientScene G{{}, lensView(splat::LensModel::Pinhole, {}, 96, 64), {}};
   G.View.Optics.Shutter = {0, 0.1, 1, {0.1, 0, 0.2}, {-0.3, 0.3, 0.2}};
   Numbers R(89);
@@ -311,14 +334,14 @@ TrainingCase rollingDilation() {
          .Quat = R.turn(),
          .Opacity = 0.8,
          .Color = R.color()});
-  G.Options.Through = splat::Spread::Unscented;
+  G.Options.Through = Through;
   G.Options.Antialiased = true;
   G.Options.Rolling = true;
-  return caseOf("gradients-of-rolling-dilation",
+  return caseOf(std::move(Name),
                 "thinner than a pixel behind a shutter, antialiased: the "
                 "dilation's shear and what it keeps of the opacity move with "
                 "the mean",
-                std::move(G), {"shear-forgotten-behind"});
+                std::move(G), {std::move(FoundIn)});
 }
 
 /// One of each one's points is just in front of the near plane and far beside
@@ -385,7 +408,31 @@ void addGradients(std::vector<TrainingCase> &Cases) {
                                 "gradients-through-points-rolling",
                                 "each point at a moment of its own, which its "
                                 "place moves"));
-  Cases.push_back(rollingDilation());
+  using splat::Spread;
+  Cases.push_back(rollingDilation(Spread::Unscented,
+                                  "gradients-of-rolling-dilation",
+                                  "shear-forgotten-behind"));
+  Cases.push_back(rollingDilation(Spread::Jacobian,
+                                  "gradients-of-rolling-dilation-jacobian",
+                                  "moment-forgotten-behind"));
+  using splat::Rules;
+  Cases.push_back(throughShutter(LensModel::Pinhole, Rules::Inria,
+                                 "gradients-through-shutter",
+                                 "the rows at a mean's own moment, and the "
+                                 "moment, move with the mean; one is held"));
+  Cases.push_back(throughShutter(LensModel::Pinhole, Rules::Gsplat,
+                                 "gradients-through-shutter-gsplat",
+                                 "the same where the limit moves with the "
+                                 "mean"));
+  Cases.push_back(throughShutter(LensModel::OpenCv, Rules::Gsplat,
+                                 "gradients-through-shutter-opencv",
+                                 "the same through all coefficients"));
+  Cases.push_back(throughShutter(LensModel::Fisheye, Rules::Inria,
+                                 "gradients-through-shutter-fisheye",
+                                 "the same through a fisheye"));
+  Cases.push_back(throughShutter(LensModel::Equirectangular, Rules::Inria,
+                                 "gradients-through-shutter-equirectangular",
+                                 "the same on a full sphere"));
   Cases.push_back(pointsBeside());
 }
 
