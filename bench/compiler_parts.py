@@ -2,13 +2,15 @@
 """What each part of the compiler's backend, and each extension that it compiles for, is worth: frames drawn with that alone
 switched off.
 
-usage: compiler_parts.py --out FOLDER [--machines NAME,...] [--views SCENE:VIEW:PATH,...] [--samples PROGRAM,...] [--parts NAME,...]
+usage: compiler_parts.py --out FOLDER [--machines NAME,...] [--views all|SCENE:VIEW:PATH,...] [--samples PROGRAM,...] [--parts NAME,...]
+                         [--frames]
 
 Draws each view on each machine with the whole backend, and again with one part off; runs the samples, which check their
 results, in the same way. Each run compiles its kernels anew; options of vorion-clang reach it by VORION_REMARKS. All
 pictures of a view must have the same bits. Prints tables of Markdown: the code and the warp instructions of `project`, and on
-the path simt of `blend`, and what a part's absence adds to the cycles of frames, of these kernels and of samples. FOLDER
-keeps what was found (resumable). Exit codes: 0, 1 a picture differs.
+the path simt of `blend`, and what a part's absence adds to the cycles of frames, of these kernels and of samples; with
+--frames a table of frames alone, a view a line. --views all draws every view of ../shared/data on both paths. FOLDER
+keeps what was found (resumable, also by several processes for different machines). Exit codes: 0, 1 a picture differs.
 """
 
 import argparse
@@ -47,6 +49,10 @@ PARTS = {
     "selects": "-mllvm -vorion-select-sides=false",
     "uniform tests": "-mllvm -vorion-uniform-tests=false",
     "rounds of passes": "-mllvm -vorion-round-limit=0",
+}
+# What LLVM would do alone with the lowering of divergent branches that the machine needs.
+PARTS["all of these"] = " ".join(option for part, option in PARTS.items() if part != "first scheduling" and option)
+PARTS |= {
     **{name.capitalize(): target_without(name) for name in EXTENSIONS},
     "all four extensions": target_without(*EXTENSIONS),
 }
@@ -152,16 +158,37 @@ def cycles_table(found, machine, columns, parts):
     clocked.say(found[machine, ran][part]["machine"] for ran, _ in columns for part in parts)
 
 
+def frames_table(found, machines, views, parts):
+    """Millions of cycles with the whole backend, and what parts' absence adds in %."""
+    others = [part for part in parts if part != "none"]
+    print("\nMillions of cycles of frames, and what is added in % where a part is off:")
+    print_table(["frame"] + [cell for machine in machines for cell in (machine, *others)],
+                [[view.replace(":", " ")] + [cell for machine in machines for rows in [found[machine, view]] for cell in (
+                    f"{rows['none']['cycles']['frame'] / 1e6:.3f}",
+                    *(change(rows[part]["cycles"]["frame"], rows["none"]["cycles"]["frame"]) for part in others))]
+                 for view in views])
+    clocked.say(rows["none"]["machine"] for rows in found.values())
+
+
+def all_views():
+    return [":".join((name, view, path)) for path in ("raster", "simt")
+            for name in sorted(scenes.known(), key=lambda name: scenes.size(scenes.shared(name)))
+            for view in scenes.shared(name).views]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", required=True)
     parser.add_argument("--machines", default=MACHINES)
-    parser.add_argument("--views", default=VIEWS, help="none if empty")
+    parser.add_argument("--views", default=VIEWS, help="none if empty; all: every view of every scene on both paths")
+    parser.add_argument("--frames", action="store_true", help="print one table of frames")
     parser.add_argument("--samples", default=SAMPLES, help="programs; none if empty")
     parser.add_argument("--parts", default=",".join(PARTS))
     args = parser.parse_args()
     machines = args.machines.split(",")
     views, samples = ([name for name in given.split(",") if name] for given in (args.views, args.samples))
+    if args.views == "all":
+        views = all_views()
     parts = ["none"] + [part for part in args.parts.split(",") if part != "none"]
     for part in parts:
         if part not in PARTS:
@@ -177,11 +204,13 @@ def main():
                     print(f"compiler_parts.py: error: {view} on {machine} without {part}: the picture has other bits, expected the same",
                           file=sys.stderr)
                     code = 1
-    for view in views:
+    if args.frames:
+        frames_table(found, machines, views, parts)
+    for view in views if not args.frames else []:
         for kernel in kernels_of(view.split(":")[2]):
             code_table(found[machines[0], view], kernel, view, parts)
     for machine in machines:
-        if views:
+        if views and not args.frames:
             cycles_table(found, machine, [(view, what) for view in views for what in ("frame", *kernels_of(view.split(":")[2]))], parts)
     ran = {(machine, sample): {part: sampled(args.out, machine, part, sample) for part in parts}
            for sample in samples for machine in machines}

@@ -2,6 +2,7 @@
 """Lane-instructions a second of the simulator, side by side with qemu-riscv32 and, where it is installed, Spike.
 
 usage: run.py [--rounds N] [--programs NAME,...] [--json FILE] [--out DIR] [--no-observers] [--realtime]
+              [--build-only | --built]
 
 Each program of this folder is compiled twice: for the machine, where 16 lanes of every core work together, and, the
 same source, for one lane as a Linux program (for Spike, as a program of its own). A round runs each on vorion-sim with
@@ -15,6 +16,8 @@ that the host can do (limit.c): no instruction that computes takes less.
 
 Then two builds of the simulator, with observers and without (VORION_OBSERVERS=OFF), are compared by the instructions
 that callgrind counts with no observer at work.
+
+--build-only leaves the programs in DIR, and --built measures those that are there: for hosts without the compilers.
 
 exit codes: 0 done, 1 a result differs or a program failed, 2 usage
 """
@@ -162,7 +165,7 @@ def build_project(device_repeats, scalar_repeats):
             "-o", "project" + suffix)
 
 
-def build():
+def build(names):
     os.makedirs(Out.folder, exist_ok=True)
     image = ""
     for file in (os.path.join(BUILD, "intrinsics", "generated", "vorion_numbers.ld"),
@@ -172,6 +175,11 @@ def build():
     write("image.ld", image)
     write("one-lane.json", json.dumps(ONE_LANE))
     run("clang-19", "-O2", os.path.join(FOLDER, "limit.c"), "-o", "limit")
+    for name in names:
+        if name == "project":
+            build_project(*PROGRAMS[name])
+        else:
+            build_c(name, *PROGRAMS[name])
 
 
 def arguments(name):
@@ -347,6 +355,10 @@ def main():
     parser.add_argument("--json", help="default: results.json in OUT")
     parser.add_argument("--no-observers", action="store_true", help="leave out the two builds of the simulator")
     parser.add_argument("--realtime", action="store_true", help="measure under chrt -f, undisturbed by other work (as root)")
+    alone = parser.add_mutually_exclusive_group()
+    alone.add_argument("--build-only", action="store_true", help="measure nothing")
+    alone.add_argument("--built", action="store_true", help="measure the programs that OUT has, on a host without compilers; "
+                       "needs --no-observers")
     options = parser.parse_args()
     Out.prefix = ["chrt", "-f", "10"] if options.realtime else []
     Out.folder = os.path.abspath(options.out)
@@ -355,13 +367,14 @@ def main():
     if unknown or options.rounds < 1:
         parser.error(f"--programs {options.programs} --rounds {options.rounds}, expected some of {','.join(PROGRAMS)} and "
                      "at least one round")
-    build()
+    if options.built and not options.no_observers:
+        parser.error("--built has no compiler for the simulators without observers, expected --no-observers with it")
+    if not options.built:
+        build(names)
+    if options.build_only:
+        return 0
     results = []
     for name in names:
-        if name == "project":
-            build_project(*PROGRAMS[name])
-        else:
-            build_c(name, *PROGRAMS[name])
         results.append(measure(name, options.rounds))
         print(f"{name}: interpreter {results[-1]['rates']['interpreter']}", file=sys.stderr)
     costs = {} if options.no_observers else observer_cost([name for name in OBSERVED if name in names])
