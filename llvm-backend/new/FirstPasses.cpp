@@ -1,5 +1,6 @@
 //===- FirstPasses.cpp - what the optimiser is told -----------------------===//
 
+#include "ComponentStores.h"
 #include "KeptLines.h"
 #include "PassLoops.h"
 #include "RISCVSubtarget.h"
@@ -13,17 +14,16 @@ using namespace llvm;
 
 namespace {
 
-/// vorion::ShareVariables for modules of our machine, which only their
-/// functions tell.
-class ShareOurVariables : public vorion::ShareVariables {
+/// \p Pass for modules of our machine, which only their functions tell.
+template <typename Pass> class OnOurMachine : public Pass {
 public:
-  explicit ShareOurVariables(const RISCVTargetMachine &TM) : TM(TM) {}
+  explicit OnOurMachine(const RISCVTargetMachine &TM) : TM(TM) {}
   PreservedAnalyses run(Module &M, ModuleAnalysisManager &Analyses) {
     if (any_of(M, [&](Function &F) {
           return !F.isDeclaration() &&
                  TM.getSubtarget<RISCVSubtarget>(F).hasVendorXVortex();
         }))
-      return ShareVariables::run(M, Analyses);
+      return Pass::run(M, Analyses);
     return PreservedAnalyses::all();
   }
 
@@ -31,12 +31,30 @@ private:
   const RISCVTargetMachine &TM;
 };
 
+using ShareOurVariables = OnOurMachine<vorion::ShareVariables>;
+using StoreOurComponents = OnOurMachine<vorion::StoreComponents>;
+
+/// Lets -passes= name \p Pass.
+template <typename Pass>
+void nameModulePass(PassBuilder &PB, StringRef Wanted,
+                    const RISCVTargetMachine &TM) {
+  PB.registerPipelineParsingCallback(
+      [&TM, Wanted](StringRef Name, ModulePassManager &Passes,
+                    ArrayRef<PassBuilder::PipelineElement>) {
+        if (Name != Wanted)
+          return false;
+        Passes.addPass(Pass(TM));
+        return true;
+      });
+}
+
 } // namespace
 
 void vorion::registerFirstPasses(PassBuilder &PB,
                                  const RISCVTargetMachine &TM) {
   PB.registerPipelineStartEPCallback(
       [&TM](ModulePassManager &Passes, OptimizationLevel) {
+        Passes.addPass(StoreOurComponents(TM));
         Passes.addPass(ShareOurVariables(TM));
       });
   registerKeptLines(PB);
@@ -45,14 +63,8 @@ void vorion::registerFirstPasses(PassBuilder &PB,
       [](FunctionPassManager &Passes, OptimizationLevel) {
         Passes.addPass(UnrollPassLoops());
       });
-  PB.registerPipelineParsingCallback(
-      [&TM](StringRef Name, ModulePassManager &Passes,
-            ArrayRef<PassBuilder::PipelineElement>) {
-        if (Name != "vorion-share-variables")
-          return false;
-        Passes.addPass(ShareOurVariables(TM));
-        return true;
-      });
+  nameModulePass<ShareOurVariables>(PB, "vorion-share-variables", TM);
+  nameModulePass<StoreOurComponents>(PB, "vorion-store-components", TM);
   PB.registerPipelineParsingCallback(
       [](StringRef Name, FunctionPassManager &Passes,
          ArrayRef<PassBuilder::PipelineElement>) {

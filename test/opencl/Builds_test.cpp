@@ -293,6 +293,32 @@ TEST_F(Builds, KernelsAreMadeOfLinkedProgramsOnly) {
   EXPECT_EQ(Linked.getInfo<CL_PROGRAM_KERNEL_NAMES>(), "f");
 }
 
+// As from a header that both include; one has it without `inline`.
+TEST_F(Builds, LinkedProgramsMayHaveTheSameInlineFunction) {
+  const std::string Function = "int next(int x) { return x + 1; }\n";
+  for (const char *Options : {"", "-cl-opt-disable"})
+    for (const char *Word : {"inline ", "__inline__ ", ""}) {
+      const cl::Program One = program(
+          ("inline " + Function +
+           "int other(int x); kernel void f(global int *o) { *o = next(*o) + "
+           "other(*o); }")
+              .c_str());
+      const cl::Program Two =
+          program((Word + Function + "int other(int x) { return 2 * next(x); }")
+                      .c_str());
+      ASSERT_EQ(compile(One, Options), CL_SUCCESS) << log(One);
+      ASSERT_EQ(compile(Two, Options), CL_SUCCESS) << log(Two);
+      cl_int Status = CL_SUCCESS;
+      const cl::Program Linked = link({One(), Two()}, "", Status);
+      ASSERT_EQ(Status, CL_SUCCESS) << Word << log(Linked);
+      const auto Buffer = Device.upload(std::vector<int32_t>{20});
+      cl::Kernel Kernel(Linked, "f");
+      Kernel.setArg(0, Buffer);
+      Device.run(Kernel, cl::NDRange(1), cl::NDRange(1));
+      EXPECT_EQ(Device.download<int32_t>(Buffer, 1)[0], 63);
+    }
+}
+
 TEST_F(Builds, AFailedLinkHasAProgramWithALog) {
   const cl::Program Caller = program(
       "int other(int); kernel void f(global int *o) { *o = other(1); }");

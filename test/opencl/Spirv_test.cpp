@@ -121,6 +121,7 @@ TEST_P(SpirvKernels, ComputeWhatTheirSourceDoes) {
 
 INSTANTIATE_TEST_SUITE_P(All, SpirvKernels,
                          testing::Values(FileAndKernel("kernels", "vectors"),
+                                         FileAndKernel("kernels", "components"),
                                          FileAndKernel("kernels", "memory"),
                                          FileAndKernel("kernels", "integers"),
                                          FileAndKernel("kernels", "math"),

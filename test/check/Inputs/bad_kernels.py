@@ -1,4 +1,4 @@
-"""Kernels with errors, for the checkers of an OpenCL program."""
+"""Kernels with errors, and two without, for the checkers of an OpenCL program."""
 import numpy as np
 import pyopencl as cl
 
@@ -12,6 +12,21 @@ kernel void never_written(global const float *input, global float *out) {
 kernel void neighbours(global float *data) {
   int i = get_global_id(0);
   data[i] = data[i ^ 1] + 1.0f;
+}
+kernel void copied(global const float *table, global float *out) {
+  local float own[16];
+  event_t copy = async_work_group_copy(own, table + 16 * get_group_id(0), 16, 0);
+  wait_group_events(1, &copy);
+  out[get_global_id(0)] = own[15 - get_local_id(0)];
+}
+kernel void components(global float4 *out) {
+  int i = get_global_id(0);
+  switch (i & 3) {
+  case 0: out[i / 4].x = i; break;
+  case 1: out[i / 4].y = i; break;
+  case 2: out[i / 4].z = i; break;
+  default: out[i / 4].w = i;
+  }
 }
 """
 
@@ -27,5 +42,9 @@ program.never_written(queue, (64,), (16,), fresh, out)
 cl.enqueue_copy(queue, fresh, host)
 program.never_written(queue, (64,), (16,), fresh, out)
 program.neighbours(queue, (64,), (16,), table)
+queue.finish()
+print("without errors", flush=True)
+program.copied(queue, (64,), (16,), table, out)
+program.components(queue, (64,), (16,), cl.Buffer(context, cl.mem_flags.READ_WRITE, host.nbytes))
 queue.finish()
 print("done")

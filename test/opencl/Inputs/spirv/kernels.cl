@@ -69,6 +69,17 @@ kernel void math(global uint *out, global const uint *in, local uint *t) {
   out[i] = as_uint(y) + e + q + sign + as_uint(v.w);
 }
 
+kernel void components(global uint *out, global const uint *in, local uint *t) {
+  ITEM;
+  global uint4 *v = (global uint4 *)out + i / 4;
+  switch (i & 3) {
+  case 0: v->x = in[i] + l; break;
+  case 1: v->y = in[i] * 3; break;
+  case 2: v->z = as_uint(x); break;
+  default: v->w = i;
+  }
+}
+
 kernel __attribute__((reqd_work_group_size(32, 1, 1))) void groups(global uint *out, global const uint *in, local uint *t) {
   ITEM;
   local uint kept[64];

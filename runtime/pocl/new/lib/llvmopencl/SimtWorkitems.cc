@@ -2,6 +2,7 @@
 
 #include "SimtWorkitems.h"
 
+#include "ComponentStores.h"
 #include "LLVMUtils.h"
 #include "PassLoops.h"
 #include "ProgramVariables.h"
@@ -76,12 +77,15 @@ bool fitsOneWarp(const Module &M) {
 void addFirstSimtPasses(PassBuilder &PB) {
   PB.registerPipelineStartEPCallback(
       [](ModulePassManager &Passes, OptimizationLevel) {
+        Passes.addPass(DefineInlineFunctions());
+        Passes.addPass(vorion::StoreComponents());
         Passes.addPass(vorion::ShareVariables());
       });
 }
 
 void prepareSimtModule(Module &M) {
   dropUnusedVariables(M);
+  vorion::storeComponents(M);
   vorion::shareVariables(M);
   for (Function &F : M) {
     if (!isKernelToProcess(F))

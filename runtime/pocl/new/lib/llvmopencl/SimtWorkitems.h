@@ -15,6 +15,7 @@
 #ifndef POCL_SIMT_WORKITEMS_H
 #define POCL_SIMT_WORKITEMS_H
 
+#include "InlineFunctions.h"
 #include "SimtBarriers.h"
 #include "SimtInstructions.h"
 
