@@ -7,8 +7,8 @@
 
 namespace pocl {
 
-/// What stands for `inline` in a program's source: the front end would leave out
-/// such functions, and a call that is not inlined would have nowhere to go.
+/// What stands for `inline` in a program's source: the front end would leave
+/// out such functions, and a call that is not inlined would have nowhere to go.
 inline constexpr const char *InlineMark =
     "__attribute__((annotate(\"vorion.inline\")))";
 
