@@ -20,6 +20,9 @@ typedef uint uint4 __attribute__((ext_vector_type(4)));
 #define CLK_LOCAL_MEM_FENCE 1
 #define CLK_GLOBAL_MEM_FENCE 2
 #define REQUIRED_SIZE(n)
+#define put_by_switch(t, i, value) ((t)[i] = (value))
+#define put_by_if(t, i, value) ((t)[i] = (value))
+#define put_at(t, i, value) ((t)[i] = (value))
 
 typedef void entry(uint *out, const uint *in, uint *t, uint k);
 

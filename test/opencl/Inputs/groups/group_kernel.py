@@ -19,6 +19,22 @@ PROLOGUE = """
 #define LOCAL_ARRAY local
 #define LOCAL_POINTER(name) local uint *local name
 #define REQUIRED_SIZE(n) __attribute__((reqd_work_group_size(n, 1, 1)))
+/* Words of local memory as components of vectors, of which other work-items write the others. */
+static void put_by_switch(local uint *t, uint i, uint value) {
+  local uint4 *to = (local uint4 *)t + i / 4;
+  switch (i & 3) {
+  case 0: to->x = value; break;
+  case 1: to->y = value; break;
+  case 2: to->z = value; break;
+  default: to->w = value;
+  }
+}
+static void put_by_if(local uint *t, uint i, uint value) {
+  local uint2 *to = (local uint2 *)t;
+  if (i & 1) to[i / 2].y = value;
+  else to[i / 2].x = value;
+}
+static void put_at(local uint *t, uint i, uint value) { ((local uint4 *)t)[i / 4][i & 3] = value; }
 #endif
 static int is_odd(uint x) { if (x & 1u) return 1; return x == 6u; }
 static uint bits_of(float f) { return f != f ? 0x7fc00000 : as_uint(f); }
@@ -43,14 +59,16 @@ static uint stuck(uint word) {
 
 class Kernel:
     """One kernel; `required` is a group size it is compiled for, or None; `jumps`: with agreed jumps in parting conditionals;
-    `returns`: work-items may return anywhere, and the others go on without them."""
+    `returns`: work-items may return anywhere, and the others go on without them; `components`: words of local memory are also
+    written as components of vectors."""
 
-    def __init__(self, rand, name, required, jumps, returns):
+    def __init__(self, rand, name, required, jumps, returns, components):
         self.random = rand
         self.name = name
         self.required = required
         self.jumps = jumps
         self.returns = returns
+        self.components = components
         # Whether arguments and ids alone decide about code with barriers, nothing from memory.
         self.plain = returns and self.chance(0.6)
         self.names = 0
@@ -146,15 +164,22 @@ class Kernel:
 
     # --- code with barriers -----------------------------------------------
 
+    def put(self, value):
+        """Into the work-item's word of `t`."""
+        if not self.components:
+            return f"t[l] = {value};"
+        return self.pick([f"t[l] = {value};", f"put_by_switch(t, l, {value});", f"put_by_if(t, l, {value});",
+                          f"put_at(t, l, {value});"])
+
     def meeting(self):
         """Work-items tell each other something."""
         to, by = self.pick("xyz"), self.pick(["1u", "n - 1u", "l", self.uniform(1)])
         kind = self.random.random()
         if kind < 0.3:
-            return (f"t[l] = {self.value()}; barrier(CLK_LOCAL_MEM_FENCE); {to} ^= t[(l + {by}) % n];\n"
+            return (f"{self.put(self.value())} barrier(CLK_LOCAL_MEM_FENCE); {to} ^= t[(l + {by}) % n];\n"
                     "  barrier(CLK_LOCAL_MEM_FENCE);")
         if kind < 0.4:
-            return (f"t[l] = {self.value()}; barrier(CLK_LOCAL_MEM_FENCE); {self.pick('uv')} = t[{self.pick(['0', 'n - 1', 'n / 2'])}];\n"
+            return (f"{self.put(self.value())} barrier(CLK_LOCAL_MEM_FENCE); {self.pick('uv')} = t[{self.pick(['0', 'n - 1', 'n / 2'])}];\n"
                     "  barrier(CLK_LOCAL_MEM_FENCE);")
         if kind < 0.55:
             return f"{to} += pass_on(t, {self.value()}, {self.uniform(1)});"
@@ -253,13 +278,13 @@ class Kernel:
 class Program:
     """Kernels for any group size, and the same with the sizes that they are compiled for."""
 
-    def __init__(self, seed, kernels, jumps, returns):
+    def __init__(self, seed, kernels, jumps, returns, components):
         self.random = random.Random(seed)
         self.argument = self.random.randint(0, 40)
         self.input = [self.random.getrandbits(32) >> self.random.choice([0, 0, 28]) for _ in range(IN_WORDS)]
         required = [None] * (kernels - 2) + [7, 16]
         self.returns = returns
-        self.kernels = [Kernel(self.random, f"k{number}", size, jumps, returns) for number, size in enumerate(required)]
+        self.kernels = [Kernel(self.random, f"k{number}", size, jumps, returns, components) for number, size in enumerate(required)]
         self.text = PROLOGUE + "".join(kernel.source() for kernel in self.kernels)
 
     def runs(self):

@@ -39,10 +39,10 @@ def expected(program, folder):
         return file.read()
 
 
-def check(kernels, jumps, returns, seed, folder):
+def check(kernels, jumps, returns, components, seed, folder):
     def at(name):
         return os.path.join(folder, name)
-    program = Program(seed, kernels, jumps, returns)
+    program = Program(seed, kernels, jumps, returns, components)
     want = expected(program, folder)
     with open(at("kernels.cl"), "w", encoding="utf-8") as file:
         file.write(program.text)
@@ -72,9 +72,10 @@ def main():
     parser.add_argument("--jumps", action="store_true",
                         help="also break, continue and goto on which the group agrees, within conditionals on which it does not")
     parser.add_argument("--returns", action="store_true", help="also work-items that return before barriers to which others of their group come")
+    parser.add_argument("--components", action="store_true", help="also words of local memory that work-items write as components of vectors")
     chosen = parser.parse_args()
     todo = range(chosen.first, chosen.first + math.ceil(chosen.count / KERNELS))
-    counts, bad_seeds, spent = seeds.check_all(chosen, todo, functools.partial(check, KERNELS, chosen.jumps, chosen.returns))
+    counts, bad_seeds, spent = seeds.check_all(chosen, todo, functools.partial(check, KERNELS, chosen.jumps, chosen.returns, chosen.components))
     print(f"seeds {todo[0]} to {todo[-1]}: {len(todo) * KERNELS} kernels, {counts['runs']} runs same, {counts['bad']} bad, "
           f"in {bad_seeds} of {len(todo)} seeds; {spent}")
     return 1 if bad_seeds else 0
