@@ -138,9 +138,11 @@ TEST(Limits, WatchdogWithinARasterizer) {
 }
 
 TEST(Limits, AWatchdogOfTheLastRunStopsNothing) {
-  // Commands of the host, after the time is long over.
+  // Commands of the host, after the time is long over. The loop counts, so that
+  // a fast host does not find it in the same state before that.
   std::vector<uint32_t> Words = start();
-  Words.push_back(encode(Op::RV_JAL, {.Rd = 0, .Imm = 0}));
+  Words.push_back(encode(Op::RV_ADDI, {.Rd = 5, .Rs1 = 5, .Imm = 1}));
+  Words.push_back(encode(Op::RV_JAL, {.Rd = 0, .Imm = -4}));
   const auto M = machineFor(smallConfig(), Words);
   M->setWatchdog(0.01);
   EXPECT_EQ(M->run().End, Outcome::LimitReached);
