@@ -170,21 +170,37 @@ TEST(Backward, IsTheDerivativeThroughLenses) {
       }
 }
 
+struct {
+  LensModel Model;
+  LensCoefficients K;
+} const Lenses[] = {{LensModel::Pinhole, {}},
+                    {LensModel::OpenCv,
+                     {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
+                      -0.01, 0.03, 0, 0.01}},
+                    {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
+                    {LensModel::Orthographic, {}},
+                    {LensModel::Equirectangular, {}}};
+
+Camera<double> obliqueCameraThrough(LensModel Model,
+                                    const LensCoefficients &K) {
+  auto C = obliqueCamera();
+  if (Model == LensModel::Equirectangular) {
+    C.Focal = {Width / (2 * M_PI), Height / M_PI};
+    C.Principal = {0.5 * Width, 0.5 * Height};
+  }
+  setLens(C, Model, K);
+  return C;
+}
+
+/// It rolls down and across.
+constexpr RollingShutter Rolling{
+    -0.1, 0.2, 1, {0.1, -0.15, 0.05}, {0.05, -0.1, 0.1}};
+
 // By the Jacobian, through each lens and through a shutter that rolls down and
 // across, in the picture and beyond where the Jacobian is held. What INRIA's
 // rules give of a pinhole's is no derivative, because they take what is held as
 // a constant.
 TEST(Backward, IsTheDerivativeThroughShutters) {
-  struct {
-    LensModel Model;
-    LensCoefficients K;
-  } const Lenses[] = {{LensModel::Pinhole, {}},
-                      {LensModel::OpenCv,
-                       {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
-                        -0.01, 0.03, 0, 0.01}},
-                      {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
-                      {LensModel::Orthographic, {}},
-                      {LensModel::Equirectangular, {}}};
   for (const auto &[Model, K] : Lenses)
     for (const Rules Rule : {Rules::Inria, Rules::Gsplat})
       for (const double Offset : {0., 0.9}) {
@@ -193,13 +209,8 @@ TEST(Backward, IsTheDerivativeThroughShutters) {
         Options O;
         O.Rule = Rule;
         O.Antialiased = Offset == 0;
-        auto C = obliqueCamera();
-        if (Model == LensModel::Equirectangular) {
-          C.Focal = {Width / (2 * M_PI), Height / M_PI};
-          C.Principal = {0.5 * Width, 0.5 * Height};
-        }
-        setLens(C, Model, K);
-        C.Shutter = {-0.1, 0.2, 1, {0.1, -0.15, 0.05}, {0.05, -0.1, 0.1}};
+        auto C = obliqueCameraThrough(Model, K);
+        C.Shutter = Rolling;
         expectDifferences(smallScene(9, Offset), C, O);
       }
 }
@@ -207,29 +218,14 @@ TEST(Backward, IsTheDerivativeThroughShutters) {
 // As seven points, through each lens and through a shutter that rolls down and
 // across. The smallest scale keeps all points in view.
 TEST(Backward, IsTheDerivativeThroughSevenPoints) {
-  struct {
-    LensModel Model;
-    LensCoefficients K;
-  } const Lenses[] = {{LensModel::Pinhole, {}},
-                      {LensModel::OpenCv,
-                       {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
-                        -0.01, 0.03, 0, 0.01}},
-                      {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
-                      {LensModel::Orthographic, {}},
-                      {LensModel::Equirectangular, {}}};
   for (const auto &[Model, K] : Lenses)
     for (const bool Rolls : {false, true}) {
       Options O;
       O.Through = Spread::Unscented;
       O.Rule = Rolls ? Rules::Inria : Rules::Gsplat;
-      auto C = obliqueCamera();
-      if (Model == LensModel::Equirectangular) {
-        C.Focal = {Width / (2 * M_PI), Height / M_PI};
-        C.Principal = {0.5 * Width, 0.5 * Height};
-      }
-      setLens(C, Model, K);
+      auto C = obliqueCameraThrough(Model, K);
       if (Rolls)
-        C.Shutter = {-0.1, 0.2, 1, {0.1, -0.15, 0.05}, {0.05, -0.1, 0.1}};
+        C.Shutter = Rolling;
       auto G = smallScene(11);
       for (auto &S : G.Scales)
         S *= 0.6;

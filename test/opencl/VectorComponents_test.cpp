@@ -23,19 +23,23 @@ struct Form {
   const char *Body;
 };
 
+constexpr const char *BySwitch =
+    "switch (i & 3) { case 0: s[v].x = i; break; case 1: s[v].y = i; break;"
+    " case 2: s[v].z = i; break; default: s[v].w = i; }";
+
 // clang-format off: a form a line
 const Form Forms[] = {
-  {"switch", "int4", 4, 4, "switch (i & 3) { case 0: s[v].x = i; break; case 1: s[v].y = i; break; case 2: s[v].z = i; break; default: s[v].w = i; }"},
+  {"switch", "int4", 4, 4, BySwitch},
   {"if", "int4", 4, 4, "if ((i & 3) == 0) s[v].x = i; else if ((i & 3) == 1) s[v].y = i; else if ((i & 3) == 2) s[v].z = i; else s[v].w = i;"},
   {"two", "uint2", 2, 4, "if (i & 1) s[v].y = i; else s[v].x = i;"},
   {"any", "uint8", 8, 4, "s[v][i & 7] = i;"},
   {"added", "int4", 4, 4, "if (i & 1) { if (i & 2) s[v].w += i + 1; else s[v].y += i + 1; } else { if (i & 2) s[v].z += i + 1; else s[v].x += i + 1; }"},
   {"swizzle", "int4", 4, 4, "if (i & 2) { if (i & 1) s[v].wz = (int2)(i, i - 1); } else { if (i & 1) s[v].xy = (int2)(i - 1, i); }"},
   {"halves", "int4", 4, 4, "if (i & 2) { if (i & 1) s[v].hi = (int2)(i - 1, i); } else { if (i & 1) s[v].lo = (int2)(i - 1, i); }"},
-  {"bytes", "uchar4", 4, 1, "switch (i & 3) { case 0: s[v].x = i; break; case 1: s[v].y = i; break; case 2: s[v].z = i; break; default: s[v].w = i; }"},
+  {"bytes", "uchar4", 4, 1, BySwitch},
   {"shorts", "short16", 16, 2, "switch (i & 3) { case 0: s[v][i & 15] = i; break; case 1: s[v].s159d = (short4)(v * 16 + 1, v * 16 + 5, v * 16 + 9, v * 16 + 13); break; case 2: s[v][i & 15] = i; break; default: s[v][i & 15] = i; }"},
   {"structure", "struct with", 4, 4, "switch (i & 3) { case 0: s[v].of.x = i; break; case 1: s[v].of.y = i; break; case 2: s[v].of.z = i; break; default: s[v].of.w = i; }"},
-  {"volatile", "volatile int4", 4, 4, "switch (i & 3) { case 0: s[v].x = i; break; case 1: s[v].y = i; break; case 2: s[v].z = i; break; default: s[v].w = i; }"},
+  {"volatile", "volatile int4", 4, 4, BySwitch},
   {"pointer", "int4", 4, 4, "set(&s[v], i);"},
 };
 // clang-format on

@@ -20,7 +20,7 @@ void pocl::defineInlineFunctions(Module &M) {
     const auto *Letters =
         Text ? dyn_cast<ConstantDataArray>(Text->getInitializer()) : nullptr;
     if (F && F->hasExternalLinkage() && Letters && Letters->isCString() &&
-        StringRef(InlineMark).contains(Letters->getAsCString()))
+        Letters->getAsCString() == InlineNote)
       F->setLinkage(GlobalValue::WeakODRLinkage);
   }
   Notes->eraseFromParent();

@@ -7,6 +7,9 @@
 
 namespace pocl {
 
+/// The text of the mark below.
+inline constexpr const char *InlineNote = "vorion.inline";
+
 /// What stands for `inline` in a program's source: the front end would leave
 /// out such functions, and a call that is not inlined would have nowhere to go.
 inline constexpr const char *InlineMark =
@@ -14,7 +17,8 @@ inline constexpr const char *InlineMark =
 
 /// Gives each function with that mark to the program, as one of perhaps
 /// several equal definitions (C99, 6.7.4): another program that is linked with
-/// it may have the function, too. Takes the marks away.
+/// it may have the function, too. Takes all notes of the module away: no other
+/// means anything to the machine.
 void defineInlineFunctions(llvm::Module &M);
 
 /// defineInlineFunctions as a pass.
