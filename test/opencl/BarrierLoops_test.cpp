@@ -40,6 +40,21 @@ const char *const Source = R"(
     }
     out[get_global_id(0)] = sum;
   }
+  // Work-items go back to the barrier from two places, with no counter left
+  // that would differ: LLVM made two loops of it, the inner with the barrier.
+  kernel void two_ways_back(global uint *out, local uint *shared) {
+    const uint id = get_local_id(0), size = get_local_size(0);
+    uint sum = 1;
+    shared[id] = id;
+    for (uint i = 0; i < 2; i++) {
+      barrier(CLK_LOCAL_MEM_FENCE);
+      if (i == 1)
+        break;
+      if (id & 3)
+        sum += shared[(id + 1) % size];
+    }
+    out[get_global_id(0)] = sum;
+  }
 )";
 
 std::vector<cl_uint> run(const TestDevice &Device, const char *Name,
@@ -81,6 +96,19 @@ TEST(BarrierLoops, WorkItemsGoOnAfterTheLastRoundWithABarrier) {
       for (cl_uint Round = 0; Round < 2 + Id; ++Round)
         Sum += Id * ((Id + std::min(Round, 2U)) % Size);
       EXPECT_EQ(Got[I], Sum) << "item " << Id << " of " << Size;
+    }
+  }
+}
+
+TEST(BarrierLoops, WorkItemsGoBackFromTwoPlaces) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  for (const cl_uint Size : {1U, 7U, 16U, 17U, 64U}) {
+    const std::vector<cl_uint> Got = run(Device, "two_ways_back", Size);
+    for (cl_uint I = 0; I != Got.size(); ++I) {
+      const cl_uint Id = I % Size;
+      EXPECT_EQ(Got[I], Id & 3 ? 1 + (Id + 1) % Size : 1)
+          << "item " << Id << " of " << Size;
     }
   }
 }

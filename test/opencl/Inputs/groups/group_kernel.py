@@ -56,21 +56,25 @@ static uint stuck(uint word) {
 }
 """
 
+# What kernels may have beside the usual, and the help of the option of that name.
+FORMS = {
+    "jumps": "break, continue and goto on which the group agrees, within conditionals on which it does not",
+    "returns": "work-items that return before barriers to which others of their group come",
+    "components": "words of local memory that work-items write as components of vectors",
+    "continues": "single work-items that go on to a loop's next round behind its last barrier",
+}
+
 
 class Kernel:
-    """One kernel; `required` is a group size it is compiled for, or None; `jumps`: with agreed jumps in parting conditionals;
-    `returns`: work-items may return anywhere, and the others go on without them; `components`: words of local memory are also
-    written as components of vectors."""
+    """One kernel; `required` is a group size it is compiled for, or None, `forms` what it may have beside the usual (FORMS)."""
 
-    def __init__(self, rand, name, required, jumps, returns, components):
+    def __init__(self, rand, name, required, forms):
         self.random = rand
         self.name = name
         self.required = required
-        self.jumps = jumps
-        self.returns = returns
-        self.components = components
+        self.forms = forms
         # Whether arguments and ids alone decide about code with barriers, nothing from memory.
-        self.plain = returns and self.chance(0.6)
+        self.plain = "returns" in forms and self.chance(0.6)
         self.names = 0
         self.weight = 1
         self.counters = []
@@ -121,7 +125,7 @@ class Kernel:
     # --- code without barriers --------------------------------------------
 
     def own(self, depth=0, loop=False):
-        if self.returns and self.chance(0.1):
+        if "returns" in self.forms and self.chance(0.1):
             return self.leave()
         kind = self.random.random()
         if kind < 0.5 or depth >= self.deepest:
@@ -166,7 +170,7 @@ class Kernel:
 
     def put(self, value):
         """Into the work-item's word of `t`."""
-        if not self.components:
+        if "components" not in self.forms:
             return f"t[l] = {value};"
         return self.pick([f"t[l] = {value};", f"put_by_switch(t, l, {value});", f"put_by_if(t, l, {value});",
                           f"put_at(t, l, {value});"])
@@ -219,7 +223,7 @@ class Kernel:
 
     def together(self, depth, loop=False):
         """A statement that all work-items of a group come to."""
-        if self.jumps and self.chance(0.15):
+        if "jumps" in self.forms and self.chance(0.15):
             return self.retry() if self.chance(0.2) else self.parted_jump(loop)
         kind = self.random.random()
         if kind < 0.34:
@@ -239,11 +243,21 @@ class Kernel:
             return self.own()
         return self.loop(depth)
 
+    def end_of_round(self, counter):
+        """Behind a round's last barrier: single work-items go on to the next round, or do something more."""
+        more, leave = self.own_block(1, False), self.pick([self.agreed(), f"{counter} & 1u"])
+        return (f"if ({leave}) break; " if self.chance(0.6) else "") + self.pick([
+            f"if ({self.condition()}) continue; {more}",
+            f"if ({self.condition()}) {{ {more} }}",
+            f"if ({self.condition()}) {{ {more} if ({self.condition()}) continue; }} {self.own_block(1, False)}"])
+
     def loop(self, depth):
         i, bound = self.fresh("i"), self.pick([f"(({self.uniform(1)}) & 3u)", "3u", "(k & 3u)", "2u"])
         self.weight *= 3
         self.counters.append(i)
         body = self.together_block(depth + 1, True)
+        if "continues" in self.forms and self.chance(0.6):
+            body += "\n  " + self.end_of_round(i)
         self.counters.pop()
         self.weight //= 3
         return self.pick([
@@ -258,7 +272,7 @@ class Kernel:
     def source(self):
         declarations = self.memory.declarations()
         # Who returns leaves what he would have set as it is.
-        start = self.memory.cleared() if self.returns else ""
+        start = self.memory.cleared() if "returns" in self.forms else ""
         start += self.memory.start()
         statements = [self.together(0) for _ in range(self.random.randint(2, 5))]
         statements.insert(self.random.randint(0, len(statements)), self.memory.statement())
@@ -278,13 +292,13 @@ class Kernel:
 class Program:
     """Kernels for any group size, and the same with the sizes that they are compiled for."""
 
-    def __init__(self, seed, kernels, jumps, returns, components):
+    def __init__(self, seed, kernels, forms):
         self.random = random.Random(seed)
         self.argument = self.random.randint(0, 40)
         self.input = [self.random.getrandbits(32) >> self.random.choice([0, 0, 28]) for _ in range(IN_WORDS)]
         required = [None] * (kernels - 2) + [7, 16]
-        self.returns = returns
-        self.kernels = [Kernel(self.random, f"k{number}", size, jumps, returns, components) for number, size in enumerate(required)]
+        self.forms = forms
+        self.kernels = [Kernel(self.random, f"k{number}", size, forms) for number, size in enumerate(required)]
         self.text = PROLOGUE + "".join(kernel.source() for kernel in self.kernels)
 
     def runs(self):
@@ -298,5 +312,6 @@ class Program:
     def host_source(self):
         calls = "".join(f"  run_kernel({name}, {size}, {GROUPS}, {self.out_words(size)}, in, {self.argument});\n"
                         for name, size in self.runs())
-        return (f"#define GROUPS_ON_HOST\n#define LOCAL_WORDS {LOCAL_WORDS}\n#define MAY_RETURN {int(self.returns)}\n#include \"group_host.h\"\n{self.text}\nint main(void) {{\n"
+        may_return = int("returns" in self.forms)
+        return (f"#define GROUPS_ON_HOST\n#define LOCAL_WORDS {LOCAL_WORDS}\n#define MAY_RETURN {may_return}\n#include \"group_host.h\"\n{self.text}\nint main(void) {{\n"
                 f"  static const uint in[] = {{{', '.join(f'{word}u' for word in self.input)}}};\n{calls}  return fclose(stdout);\n}}\n")

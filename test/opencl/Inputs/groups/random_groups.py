@@ -17,7 +17,7 @@ import sys
 INPUTS = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(INPUTS, *[os.pardir] * 3, "codegen", "Inputs", "kernels"))
 import seeds  # noqa: E402
-from group_kernel import GROUPS, LOCAL_WORDS, Program  # noqa: E402
+from group_kernel import FORMS, GROUPS, LOCAL_WORDS, Program  # noqa: E402
 from machines import failure, run  # noqa: E402
 
 KERNELS = 6
@@ -39,10 +39,10 @@ def expected(program, folder):
         return file.read()
 
 
-def check(kernels, jumps, returns, components, seed, folder):
+def check(kernels, forms, seed, folder):
     def at(name):
         return os.path.join(folder, name)
-    program = Program(seed, kernels, jumps, returns, components)
+    program = Program(seed, kernels, forms)
     want = expected(program, folder)
     with open(at("kernels.cl"), "w", encoding="utf-8") as file:
         file.write(program.text)
@@ -69,13 +69,11 @@ def check(kernels, jumps, returns, components, seed, folder):
 
 def main():
     parser = seeds.options(__doc__, "random-groups", "kernels")
-    parser.add_argument("--jumps", action="store_true",
-                        help="also break, continue and goto on which the group agrees, within conditionals on which it does not")
-    parser.add_argument("--returns", action="store_true", help="also work-items that return before barriers to which others of their group come")
-    parser.add_argument("--components", action="store_true", help="also words of local memory that work-items write as components of vectors")
+    for form, text in FORMS.items():
+        parser.add_argument(f"--{form}", action="append_const", dest="forms", const=form, default=[], help=f"also {text}")
     chosen = parser.parse_args()
     todo = range(chosen.first, chosen.first + math.ceil(chosen.count / KERNELS))
-    counts, bad_seeds, spent = seeds.check_all(chosen, todo, functools.partial(check, KERNELS, chosen.jumps, chosen.returns, chosen.components))
+    counts, bad_seeds, spent = seeds.check_all(chosen, todo, functools.partial(check, KERNELS, chosen.forms))
     print(f"seeds {todo[0]} to {todo[-1]}: {len(todo) * KERNELS} kernels, {counts['runs']} runs same, {counts['bad']} bad, "
           f"in {bad_seeds} of {len(todo)} seeds; {spent}")
     return 1 if bad_seeds else 0
