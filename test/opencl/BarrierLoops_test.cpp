@@ -55,6 +55,24 @@ const char *const Source = R"(
     }
     out[get_global_id(0)] = sum;
   }
+  // The bound is read between barriers, and the group may leave in two ways: of
+  // one, LLVM does not know that all agree; of the other, which comes first, it
+  // does.
+  kernel void bound_in_memory(global uint *out, local uint *shared) {
+    const uint id = get_local_id(0), size = get_local_size(0);
+    uint bound = 3, sum = id;
+    shared[0] = 3;
+    for (uint i = 0; i < bound; i++)
+      if (size & 3) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        bound = shared[0];
+        barrier(CLK_LOCAL_MEM_FENCE);
+        for (uint j = 0; j < (id & 3); j++)
+          sum = sum * 5 + j;
+      } else if (size % 7 == 3)
+        break;
+    out[get_global_id(0)] = sum;
+  }
 )";
 
 std::vector<cl_uint> run(const TestDevice &Device, const char *Name,
@@ -109,6 +127,23 @@ TEST(BarrierLoops, WorkItemsGoBackFromTwoPlaces) {
       const cl_uint Id = I % Size;
       EXPECT_EQ(Got[I], Id & 3 ? 1 + (Id + 1) % Size : 1)
           << "item " << Id << " of " << Size;
+    }
+  }
+}
+
+TEST(BarrierLoops, TheGroupLeavesInTwoWays) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  for (const cl_uint Size : {1U, 7U, 16U, 17U, 24U, 64U}) {
+    const std::vector<cl_uint> Got = run(Device, "bound_in_memory", Size);
+    for (cl_uint I = 0; I != Got.size(); ++I) {
+      const cl_uint Id = I % Size;
+      cl_uint Sum = Id;
+      if (Size & 3)
+        for (cl_uint Round = 0; Round != 3; ++Round)
+          for (cl_uint J = 0; J != (Id & 3); ++J)
+            Sum = Sum * 5 + J;
+      EXPECT_EQ(Got[I], Sum) << "item " << Id << " of " << Size;
     }
   }
 }

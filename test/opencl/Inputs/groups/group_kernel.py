@@ -258,6 +258,10 @@ class Kernel:
         body = self.together_block(depth + 1, True)
         if "continues" in self.forms and self.chance(0.6):
             body += "\n  " + self.end_of_round(i)
+        if {"continues", "returns"} <= set(self.forms) and self.chance(0.3):
+            # All return long before the loop ends.
+            bound = "(1u << 30)"
+            body = f"if ({i} > (({self.value(1)}) & 3u)) return;\n  {body}"
         self.counters.pop()
         self.weight //= 3
         return self.pick([

@@ -19,23 +19,35 @@ void Agreement::begin(IRBuilder<> &Builder, Value *With) const {
   Builder.CreateStore(Builder.getTrue(), Any);
 }
 
+/// Whether any lane has its bit in a ballot.
+static Value *isAny(IRBuilder<> &Builder, Value *Lanes) {
+  return Builder.CreateICmpNE(Lanes, Builder.getInt32(0));
+}
+
+/// Adds a pass to those in which somebody goes. Whether one before it was such.
+Value *Agreement::noteAny(IRBuilder<> &Builder, Value *PassGoes) const {
+  Value *AnyBefore =
+      Builder.CreateSelect(createIsFirstPass(Builder), Builder.getFalse(),
+                           Builder.CreateLoad(Builder.getInt1Ty(), Any));
+  Builder.CreateStore(Builder.CreateOr(AnyBefore, PassGoes), Any);
+  return AnyBefore;
+}
+
+void Agreement::ask(IRBuilder<> &Builder, Value *Goes) const {
+  noteAny(Builder, isAny(Builder, createBallot(Builder, Goes)));
+}
+
 BasicBlock *Agreement::vote(BasicBlock *Block, Value *Own, Value *Goes,
                             const DebugLoc &At) const {
   IRBuilder<> Builder(Block);
-  const auto IsAny = [&Builder](Value *Lanes) {
-    return Builder.CreateICmpNE(Lanes, Builder.getInt32(0));
-  };
   Value *Lanes = createBallot(Builder, Goes);
-  Value *PassGoes = IsAny(Lanes);
+  Value *PassGoes = isAny(Builder, Lanes);
   Value *First =
       Builder.CreateBinaryIntrinsic(Intrinsic::cttz, Lanes, Builder.getFalse());
   Value *OfPass = createFromLane(Builder, Own, First);
   Value *Before = Builder.CreateLoad(Builder.getInt32Ty(), Number);
-  Value *AnyBefore =
-      Builder.CreateSelect(createIsFirstPass(Builder), Builder.getFalse(),
-                           Builder.CreateLoad(Builder.getInt1Ty(), Any));
+  Value *AnyBefore = noteAny(Builder, PassGoes);
   Builder.CreateStore(Builder.CreateSelect(PassGoes, OfPass, Before), Number);
-  Builder.CreateStore(Builder.CreateOr(AnyBefore, PassGoes), Any);
   Value *Differs = Builder.CreateOr(
       Builder.CreateICmpNE(Own, OfPass),
       Builder.CreateAnd(AnyBefore, Builder.CreateICmpNE(Before, OfPass)));
@@ -43,7 +55,7 @@ BasicBlock *Agreement::vote(BasicBlock *Block, Value *Own, Value *Goes,
   Function *F = Block->getParent();
   auto *Other = BasicBlock::Create(F->getContext(), "other_way", F);
   auto *Agreed = BasicBlock::Create(F->getContext(), "agreed", F);
-  Builder.CreateCondBr(IsAny(Others), Other, Agreed);
+  Builder.CreateCondBr(isAny(Builder, Others), Other, Agreed);
   createTrap(*Other, Agreed, At);
   return Agreed;
 }

@@ -24,13 +24,19 @@ public:
   llvm::BasicBlock *vote(llvm::BasicBlock *Block, llvm::Value *Own,
                          llvm::Value *Goes, const llvm::DebugLoc &At) const;
 
+  /// Notes for a pass whether \p Goes holds for any of its work-items, all of
+  /// which come there. A barrier must follow.
+  void ask(llvm::IRBuilder<> &Builder, llvm::Value *Goes) const;
+
   /// Behind that barrier: the number, or \p None if nobody said one.
   llvm::Value *result(llvm::IRBuilder<> &Builder, llvm::Value *None) const;
 
-  /// Whether anybody said one.
+  /// Whether anybody said one, or goes.
   llvm::Value *hasResult(llvm::IRBuilder<> &Builder) const;
 
 private:
+  llvm::Value *noteAny(llvm::IRBuilder<> &Builder, llvm::Value *PassGoes) const;
+
   llvm::AllocaInst *Number, *Any;
 };
 

@@ -5,6 +5,7 @@
 #include "SimtGroupCode.h"
 
 #include <llvm/ADT/SetVector.h>
+#include <llvm/Analysis/CycleAnalysis.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
@@ -72,6 +73,8 @@ private:
   void guard(BasicBlock *Block, BasicBlock *Next);
   void skip(BasicBlock *Block);
   BasicBlock *tell(Instruction *I, BasicBlock *Return);
+  void endIfAllReturned(BasicBlock *Block, BasicBlock *Return);
+  BlockSet headsOfRounds() const;
   void join(BasicBlock *From, BasicBlock *Like, BasicBlock *Next);
   Value *isGone(IRBuilder<> &Builder) const {
     return Builder.CreateLoad(Builder.getInt1Ty(), Gone, "is_gone");
@@ -227,6 +230,35 @@ BasicBlock *Guards::tell(Instruction *I, BasicBlock *Return) {
   return Rest;
 }
 
+/// Puts a test behind the choices of \p Block: if nobody is left, the group
+/// goes to \p Return.
+void Guards::endIfAllReturned(BasicBlock *Block, BasicBlock *Return) {
+  BasicBlock *Rest = SplitBlock(Block, Block->getFirstNonPHI());
+  BasicBlock *Told = create("anybody");
+  Block->getTerminator()->eraseFromParent();
+  IRBuilder<> Builder(Block);
+  Common->ask(Builder, Builder.CreateNot(isGone(Builder)));
+  Builder.CreateBr(Told);
+  Builder.SetInsertPoint(Told);
+  Builder.CreateCondBr(Common->hasResult(Builder), Rest, Return);
+  Barrier::Create(&Told->front());
+}
+
+/// Where rounds begin in which work-items return. What ends such a loop for
+/// those that do not may never come true for the others: these would go round
+/// for ever.
+BlockSet Guards::headsOfRounds() const {
+  CycleInfo Cycles;
+  Cycles.compute(F);
+  BlockSet Found;
+  for (const Edge &Way : Code.leaving())
+    for (const Cycle *C = Cycles.getCycle(Way.first); C;
+         C = C->getParentCycle())
+      for (BasicBlock *Head : C->getEntries())
+        Found.insert(Head);
+  return Found;
+}
+
 void Guards::add() {
   keepInSlots();
   IRBuilder<> Builder(&F.getEntryBlock().front());
@@ -237,10 +269,11 @@ void Guards::add() {
     BasicBlock *Block;
     BasicBlock *Next; ///< where the group may part behind it
     SmallVector<Instruction *, 1> Told;
+    bool Asks;
   };
   std::vector<Place> Places;
   BasicBlock *Return = nullptr;
-  const BlockSet After = Code.afterReturns();
+  const BlockSet After = Code.afterReturns(), Heads = headsOfRounds();
   for (BasicBlock &Block : F) {
     if (isa<ReturnInst>(Block.getTerminator()))
       Return = &Block;
@@ -251,8 +284,10 @@ void Guards::add() {
     for (Instruction &I : Block)
       if (Code.isTold(&I))
         Places.back().Told.push_back(&I);
+    // What is told ends the loop as well.
+    Places.back().Asks = Heads.contains(&Block) && Places.back().Told.empty();
   }
-  if (any_of(Places, [](const Place &P) { return !P.Told.empty(); }))
+  if (any_of(Places, [](const Place &P) { return P.Asks || !P.Told.empty(); }))
     Common.emplace(Builder);
   for (const Edge &Way : Code.leaving())
     lead(Way, Code.nextOf(Way.first));
@@ -264,6 +299,8 @@ void Guards::add() {
       Block = tell(I, Return);
     if (!Barrier::hasBarrier(Block))
       guard(Block, P.Next);
+    if (P.Asks)
+      endIfAllReturned(P.Block, Return);
   }
   EliminateUnreachableBlocks(F);
   DominatorTree Dominators(F);
