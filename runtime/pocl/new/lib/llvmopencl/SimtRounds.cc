@@ -39,6 +39,7 @@ private:
     return BasicBlock::Create(F.getContext(), Name, &F);
   }
   void clearEntry();
+  void separateWhatIsTold() const;
   void separateBarriers();
   void keepValuesInSlots();
   BasicBlock *copyFrom(BasicBlock *Start, BasicBlock *End);
@@ -78,6 +79,16 @@ void Rounds::clearEntry() {
   SplitBlock(Entry, Entry->begin());
   for (AllocaInst *Variable : Variables)
     Variable->moveBefore(Entry->getTerminator());
+}
+
+/// All passes read what the work-items of the group have told each other before
+/// any pass tells the next.
+void Rounds::separateWhatIsTold() const {
+  for (BasicBlock &Block : F)
+    if (any_of(Block, [](const Instruction &I) { return isOfGroup(I); }))
+      for (BasicBlock *Next : successors(&Block))
+        if (Next->getSinglePredecessor())
+          Barrier::Create(&*Next->getFirstInsertionPt());
 }
 
 void Rounds::separateBarriers() {
@@ -194,6 +205,7 @@ void Rounds::addRound(SwitchInst &Choice, BasicBlock *From) {
 
 void Rounds::run() {
   clearEntry();
+  separateWhatIsTold();
   separateBarriers();
   keepValuesInSlots();
   BasicBlock *Start = Entry->getSingleSuccessor();
