@@ -56,7 +56,7 @@ makeRoot() {
     awk '$1 == "bookworm" || $1 == "trixie" { print $2; exit }')
   [ -n "$Mirror" ] || fail "apt knows no mirror of Debian 12 or 13 (bookworm, trixie)"
   # shellcheck disable=SC2064 # the folder is what it is now
-  trap "umount '$Folder/dev/pts' '$Folder/dev' '$Folder/proc' 2>/dev/null || true" EXIT
+  trap "umount '$Folder/dev/pts' '$Folder/dev' '$Folder/proc' 2>/dev/null || true; umount -R '$Folder/sys' 2>/dev/null || true" EXIT
   step "making a Debian root ($Release)" debootstrap debootstrap --variant=minbase "$Release" "$Folder" "$Mirror"
   cp /etc/resolv.conf "$Folder/etc/resolv.conf"
   # As Debian's installer does.
@@ -67,6 +67,9 @@ makeRoot() {
   mount -t proc proc "$Folder/proc"
   mount --bind /dev "$Folder/dev"
   mount --bind /dev/pts "$Folder/dev/pts" # tests open terminals
+  # Slurm's nodes look for processors and control groups. What is unmounted there stays mounted here.
+  mount --rbind /sys "$Folder/sys"
+  mount --make-rslave "$Folder/sys"
 }
 
 # showHelp "$@": with --help, says what the script's first lines say, and ends.
