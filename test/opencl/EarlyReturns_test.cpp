@@ -121,14 +121,13 @@ kernel void own_rounds(global uint *out, local uint *t, uint k) {
   out[id] = r;
 }
 
-// How many rounds there are, the group reads from memory.
 // The group must not go on alone with those that have returned.
 kernel void long_before_the_end(global uint *out, local uint *t, uint k) {
-  NAMES;
+  NAMES, v = 0;
   t[l] = l;
   for (uint i = 0; i < 1u << 30; i++) {
     barrier(CLK_LOCAL_MEM_FENCE);
-    uint v = t[(l + 1) % n] + k;
+    v = v * 3 + t[(l + 1) % n];
     barrier(CLK_LOCAL_MEM_FENCE);
     t[l] += v;
     out[id] = v;
@@ -137,6 +136,7 @@ kernel void long_before_the_end(global uint *out, local uint *t, uint k) {
   }
 }
 
+// How many rounds there are, the group reads from memory.
 kernel void counted_rounds(global uint *out, local uint *t, local uint *rounds, uint k) {
   NAMES;
   uint r = 0;
@@ -371,24 +371,6 @@ void ownRounds(Group &G) {
   }
 }
 
-void longBeforeTheEnd(Group &G) {
-  G.each([&](U L) {
-    G.T[L] = L;
-    return true;
-  });
-  for (U I = 0; I < 4; ++I) {
-    G.each([&](U L) {
-      G.Own[L] = G.T[(L + 1) % G.N] + G.K;
-      return true;
-    });
-    G.each([&](U L) {
-      G.T[L] += G.Own[L];
-      G.Out[L] = G.Own[L];
-      return I < L % 4;
-    });
-  }
-}
-
 void rounds(Group &G, U Count) {
   G.each([&](U L) { return G.First + L < G.K; });
   for (U I = 0; I < Count; ++I) {
@@ -429,7 +411,7 @@ const Kernel Kernels[] = {{"at_once", atOnce},
                           {"in_conditionals", inConditionals},
                           {"from_two_loops", fromTwoLoops},
                           {"own_rounds", ownRounds},
-                          {"long_before_the_end", longBeforeTheEnd},
+                          {"long_before_the_end", ownRounds},
                           {"counted_rounds", countedRounds},
                           {"length_in_memory", threeRounds},
                           {"read_in_rounds", threeRounds},

@@ -127,6 +127,8 @@ def check(chosen, name, mode, dynamic):
                 bad.append(f"{name} {mode}{' of frm' if dynamic else ''}: operands {' '.join(f'{word:08x}' for word in operands[row])}: "
                            f"{got[row]:08x}, flags {raised[row]:02x}, expected {results[row]:08x}, {together[row]:02x}")
             count += len(results)
+    if not count:
+        bad.append(f"{name} {mode}: {chosen.generator} prints no case of {instruction.function}")
     return count, bad
 
 

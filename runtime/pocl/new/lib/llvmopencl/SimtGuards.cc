@@ -72,6 +72,7 @@ private:
   BasicBlock *copyTail(BasicBlock *First, BasicBlock *From, BasicBlock *End);
   void guard(BasicBlock *Block, BasicBlock *Next);
   void skip(BasicBlock *Block);
+  BasicBlock *goOnIfAnybodyIsLeft(BasicBlock *Rest, BasicBlock *Return);
   BasicBlock *tell(Instruction *I, BasicBlock *Return);
   void endIfAllReturned(BasicBlock *Block, BasicBlock *Return);
   BlockSet headsOfRounds() const;
@@ -199,6 +200,16 @@ void Guards::skip(BasicBlock *Block) {
   }
 }
 
+/// A block with a barrier, behind which the group knows the answers. If nobody
+/// is left, it goes to \p Return, else to \p Rest.
+BasicBlock *Guards::goOnIfAnybodyIsLeft(BasicBlock *Rest, BasicBlock *Return) {
+  BasicBlock *Told = create("told");
+  IRBuilder<> Builder(Told);
+  Builder.CreateCondBr(Common->hasResult(Builder), Rest, Return);
+  Barrier::Create(&Told->front());
+  return Told;
+}
+
 /// Those that have not returned tell the others what \p I, which all come to,
 /// computes. If nobody is left, the group goes to \p Return. The block behind.
 BasicBlock *Guards::tell(Instruction *I, BasicBlock *Return) {
@@ -212,18 +223,17 @@ BasicBlock *Guards::tell(Instruction *I, BasicBlock *Return) {
   Builder.CreateStore(Builder.CreateZExt(I, Word), Own);
   guard(Block, nullptr);
 
-  BasicBlock *Vote = Rest->getSinglePredecessor(), *Told = create("told");
+  BasicBlock *Vote = Rest->getSinglePredecessor();
+  BasicBlock *Told = goOnIfAnybodyIsLeft(Rest, Return);
   Vote->getTerminator()->eraseFromParent();
   Builder.SetInsertPoint(Vote);
   Value *Said = Builder.CreateLoad(Word, Own);
   Value *Goes = Builder.CreateNot(isGone(Builder));
   BranchInst::Create(Told, Common->vote(Vote, Said, Goes, I->getDebugLoc()));
 
-  Builder.SetInsertPoint(Told);
+  Builder.SetInsertPoint(Told->front().getNextNode());
   Value *Result = Builder.CreateZExtOrTrunc(
       Common->result(Builder, Constant::getNullValue(Word)), I->getType());
-  Builder.CreateCondBr(Common->hasResult(Builder), Rest, Return);
-  Barrier::Create(&Told->front());
   I->replaceUsesWithIf(Result, [I](const Use &U) {
     return cast<Instruction>(U.getUser())->getParent() != I->getParent();
   });
@@ -234,14 +244,10 @@ BasicBlock *Guards::tell(Instruction *I, BasicBlock *Return) {
 /// goes to \p Return.
 void Guards::endIfAllReturned(BasicBlock *Block, BasicBlock *Return) {
   BasicBlock *Rest = SplitBlock(Block, Block->getFirstNonPHI());
-  BasicBlock *Told = create("anybody");
   Block->getTerminator()->eraseFromParent();
   IRBuilder<> Builder(Block);
   Common->ask(Builder, Builder.CreateNot(isGone(Builder)));
-  Builder.CreateBr(Told);
-  Builder.SetInsertPoint(Told);
-  Builder.CreateCondBr(Common->hasResult(Builder), Rest, Return);
-  Barrier::Create(&Told->front());
+  Builder.CreateBr(goOnIfAnybodyIsLeft(Rest, Return));
 }
 
 /// Where rounds begin in which work-items return. What ends such a loop for
