@@ -3,6 +3,7 @@
 #include "TestDevice.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 using vorion::test::TestDevice;
 
@@ -40,8 +41,8 @@ const char *const Source = R"(
     }
     out[get_global_id(0)] = sum;
   }
-  // Work-items go back to the barrier from two places, with no counter left
-  // that would differ: LLVM made two loops of it, the inner with the barrier.
+  // Work-items go back to the barrier from two places. LLVM made two loops of
+  // it, with the barrier in the inner one.
   kernel void two_ways_back(global uint *out, local uint *shared) {
     const uint id = get_local_id(0), size = get_local_size(0);
     uint sum = 1;
@@ -55,9 +56,8 @@ const char *const Source = R"(
     }
     out[get_global_id(0)] = sum;
   }
-  // The bound is read between barriers, and the group may leave in two ways: of
-  // one, LLVM does not know that all agree; of the other, which comes first, it
-  // does.
+  // The group may leave in two ways. That all agree in the bound, which is read
+  // from memory, the compiler does not know; of the break it knows it.
   kernel void bound_in_memory(global uint *out, local uint *shared) {
     const uint id = get_local_id(0), size = get_local_size(0);
     uint bound = 3, sum = id;
@@ -87,65 +87,53 @@ std::vector<cl_uint> run(const TestDevice &Device, const char *Name,
   return Device.download<cl_uint>(Out, std::size_t{Groups} * Size);
 }
 
-/// Groups of one warp. In larger ones work-items that leave the others trap.
-const cl_uint Sizes[] = {1, 2, 4, 7, 16};
-
-TEST(BarrierLoops, WorkItemsGoOnWhereNobodyReachesTheBarrier) {
+/// Compares what each work-item of groups of such sizes leaves.
+void expectOfEach(const char *Name, std::initializer_list<cl_uint> Sizes,
+                  cl_uint (*Want)(cl_uint Id, cl_uint Size)) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
   for (const cl_uint Size : Sizes) {
-    const std::vector<cl_uint> Got = run(Device, "nobody", Size);
-    for (cl_uint I = 0; I != Got.size(); ++I) {
-      const cl_uint Id = I % Size;
-      EXPECT_EQ(Got[I], Id + (Id + 1) * (Id + 2) / 2)
-          << "item " << Id << " of " << Size;
-    }
+    const std::vector<cl_uint> Got = run(Device, Name, Size);
+    for (cl_uint I = 0; I != Got.size(); ++I)
+      EXPECT_EQ(Got[I], Want(I % Size, Size))
+          << "item " << I % Size << " of " << Size;
   }
+}
+
+/// Groups of one warp. In larger ones work-items that leave the others trap.
+const std::initializer_list<cl_uint> OneWarp = {1, 2, 4, 7, 16};
+
+TEST(BarrierLoops, WorkItemsGoOnWhereNobodyReachesTheBarrier) {
+  expectOfEach("nobody", OneWarp, [](cl_uint Id, cl_uint /*Size*/) {
+    return Id + (Id + 1) * (Id + 2) / 2;
+  });
 }
 
 TEST(BarrierLoops, WorkItemsGoOnAfterTheLastRoundWithABarrier) {
-  const TestDevice Device;
-  VORION_REQUIRE_DEVICE(Device);
-  for (const cl_uint Size : Sizes) {
-    const std::vector<cl_uint> Got = run(Device, "first_rounds", Size);
-    for (cl_uint I = 0; I != Got.size(); ++I) {
-      const cl_uint Id = I % Size;
-      cl_uint Sum = 0;
-      for (cl_uint Round = 0; Round < 2 + Id; ++Round)
-        Sum += Id * ((Id + std::min(Round, 2U)) % Size);
-      EXPECT_EQ(Got[I], Sum) << "item " << Id << " of " << Size;
-    }
-  }
+  expectOfEach("first_rounds", OneWarp, [](cl_uint Id, cl_uint Size) {
+    cl_uint Sum = 0;
+    for (cl_uint Round = 0; Round < 2 + Id; ++Round)
+      Sum += Id * ((Id + std::min(Round, 2U)) % Size);
+    return Sum;
+  });
 }
 
 TEST(BarrierLoops, WorkItemsGoBackFromTwoPlaces) {
-  const TestDevice Device;
-  VORION_REQUIRE_DEVICE(Device);
-  for (const cl_uint Size : {1U, 7U, 16U, 17U, 64U}) {
-    const std::vector<cl_uint> Got = run(Device, "two_ways_back", Size);
-    for (cl_uint I = 0; I != Got.size(); ++I) {
-      const cl_uint Id = I % Size;
-      EXPECT_EQ(Got[I], Id & 3 ? 1 + (Id + 1) % Size : 1)
-          << "item " << Id << " of " << Size;
-    }
-  }
+  expectOfEach("two_ways_back", {1, 7, 16, 17, 64},
+               [](cl_uint Id, cl_uint Size) {
+                 return Id & 3 ? 1 + (Id + 1) % Size : 1;
+               });
 }
 
 TEST(BarrierLoops, TheGroupLeavesInTwoWays) {
-  const TestDevice Device;
-  VORION_REQUIRE_DEVICE(Device);
-  for (const cl_uint Size : {1U, 7U, 16U, 17U, 24U, 64U}) {
-    const std::vector<cl_uint> Got = run(Device, "bound_in_memory", Size);
-    for (cl_uint I = 0; I != Got.size(); ++I) {
-      const cl_uint Id = I % Size;
-      cl_uint Sum = Id;
-      if (Size & 3)
-        for (cl_uint Round = 0; Round != 3; ++Round)
-          for (cl_uint J = 0; J != (Id & 3); ++J)
-            Sum = Sum * 5 + J;
-      EXPECT_EQ(Got[I], Sum) << "item " << Id << " of " << Size;
-    }
-  }
+  expectOfEach("bound_in_memory", {1, 7, 16, 17, 24, 64},
+               [](cl_uint Id, cl_uint Size) {
+                 cl_uint Sum = Id;
+                 for (cl_uint Round = 0; Round != (Size & 3 ? 3 : 0); ++Round)
+                   for (cl_uint J = 0; J != (Id & 3); ++J)
+                     Sum = Sum * 5 + J;
+                 return Sum;
+               });
 }
 
 } // namespace
