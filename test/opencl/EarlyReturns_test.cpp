@@ -136,6 +136,25 @@ kernel void long_before_the_end(global uint *out, local uint *t, uint k) {
   }
 }
 
+// The group decides about a barrier by what it reads, and a store ends a round.
+kernel void store_at_the_end(global uint *out, local uint *t, uint k) {
+  NAMES;
+  uint a[4] = {1, l, 7, 4};
+  t[l] = 3;
+  for (uint i = 0; i < 5; i++) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (t[0] & 3) {
+      barrier(CLK_LOCAL_MEM_FENCE);
+      if (id + i >= k)
+        return;
+    }
+    if (k == 7)
+      break;
+    a[l & 3] = i;
+  }
+  out[id] = a[l & 3];
+}
+
 // How many rounds there are, the group reads from memory.
 kernel void counted_rounds(global uint *out, local uint *t, local uint *rounds, uint k) {
   NAMES;
@@ -371,6 +390,14 @@ void ownRounds(Group &G) {
   }
 }
 
+void storeAtTheEnd(Group &G) {
+  G.each([&](U L) { return G.First + L + 4 < G.K; });
+  G.each([&](U L) {
+    G.Out[L] = 4;
+    return true;
+  });
+}
+
 void rounds(Group &G, U Count) {
   G.each([&](U L) { return G.First + L < G.K; });
   for (U I = 0; I < Count; ++I) {
@@ -412,6 +439,7 @@ const Kernel Kernels[] = {{"at_once", atOnce},
                           {"from_two_loops", fromTwoLoops},
                           {"own_rounds", ownRounds},
                           {"long_before_the_end", ownRounds},
+                          {"store_at_the_end", storeAtTheEnd},
                           {"counted_rounds", countedRounds},
                           {"length_in_memory", threeRounds},
                           {"read_in_rounds", threeRounds},

@@ -42,6 +42,21 @@ BlockSet reachedTwice(BasicBlock &Block, const BasicBlock *Without) {
   return Twice;
 }
 
+/// Demotes a value, and reads it in front of a barrier that ends a block whose
+/// branch it decides. A read behind that barrier would begin a region there,
+/// which takes in what lies behind the branch. No barrier changes the variable.
+static void keepInVariable(Instruction *I) {
+  SmallVector<std::pair<Instruction *, Instruction *>, 2> Ended;
+  for (User *Of : I->users())
+    if (auto *End = cast<Instruction>(Of);
+        End->isTerminator() && Barrier::endsWithBarrier(End->getParent()))
+      Ended.push_back({End->getPrevNode(), End});
+  DemoteRegToStack(*I);
+  for (const auto &[Last, End] : Ended)
+    while (Last->getNextNode() != End)
+      Last->getNextNode()->moveBefore(Last);
+}
+
 void keepInVariables(ArrayRef<BasicBlock *> Blocks) {
   SmallVector<Instruction *, 8> Leaving;
   for (BasicBlock *Block : Blocks)
@@ -49,7 +64,7 @@ void keepInVariables(ArrayRef<BasicBlock *> Blocks) {
       if (I.isUsedOutsideOfBlock(Block))
         Leaving.push_back(&I);
   for (Instruction *I : Leaving)
-    DemoteRegToStack(*I);
+    keepInVariable(I);
 }
 
 bool hasIrreducibleLoops(const Function &F, const LoopInfo &Loops) {
