@@ -155,6 +155,23 @@ kernel void store_at_the_end(global uint *out, local uint *t, uint k) {
   out[id] = a[l & 3];
 }
 
+// What each leaves at the end depends on how it came there.
+kernel void jumped_to_the_end(global uint *out, local uint *t, uint k) {
+  NAMES, w = l;
+  t[l] = 1;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (l & 2)
+    goto done;
+  w = w * 3 + 1;
+  if (t[0]) {
+    w = 5;
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+done:
+  out[id] = w + k;
+}
+
 // How many rounds there are, the group reads from memory.
 kernel void counted_rounds(global uint *out, local uint *t, local uint *rounds, uint k) {
   NAMES;
@@ -398,6 +415,13 @@ void storeAtTheEnd(Group &G) {
   });
 }
 
+void jumpedToTheEnd(Group &G) {
+  G.each([&](U L) {
+    G.Out[L] = (L & 2 ? L : 5) + G.K;
+    return true;
+  });
+}
+
 void rounds(Group &G, U Count) {
   G.each([&](U L) { return G.First + L < G.K; });
   for (U I = 0; I < Count; ++I) {
@@ -440,6 +464,7 @@ const Kernel Kernels[] = {{"at_once", atOnce},
                           {"own_rounds", ownRounds},
                           {"long_before_the_end", ownRounds},
                           {"store_at_the_end", storeAtTheEnd},
+                          {"jumped_to_the_end", jumpedToTheEnd},
                           {"counted_rounds", countedRounds},
                           {"length_in_memory", threeRounds},
                           {"read_in_rounds", threeRounds},

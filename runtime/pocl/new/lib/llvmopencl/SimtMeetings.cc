@@ -283,18 +283,6 @@ bool separateHeads(Function &F) {
                 [](const Loop *L) { return separateHeads(*L); });
 }
 
-/// Why a kernel runs in rounds, and in which line of it that begins. For the
-/// machine's compiler, which is to tell it (llvm-backend/new/Resources.cpp):
-/// the kernel itself becomes a part of others.
-void keepReasonOfRounds(Module &M, StringRef Reason, unsigned Line) {
-  LLVMContext &Context = M.getContext();
-  M.getOrInsertNamedMetadata("vorion.rounds")
-      ->addOperand(
-          MDNode::get(Context, {MDString::get(Context, Reason),
-                                ConstantAsMetadata::get(ConstantInt::get(
-                                    Type::getInt32Ty(Context), Line))}));
-}
-
 /// Tells whoever listens (docs/backend.md, Remarks) why the kernel is slow.
 void tellOfRounds(Function &F, const DebugLoc &Return,
                   const DebugLoc &Obstacle) {
@@ -324,6 +312,14 @@ PreservedAnalyses changedAll() {
 PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
   if (!isKernelToProcess(F) || !hasWorkgroupBarriers(F))
     return PreservedAnalyses::all();
+  if (areRoundsAskedFor(*F.getParent())) {
+    keepReasonOfRounds(*F.getParent(),
+                       "its barriers do not divide the kernel into loops over "
+                       "work-items",
+                       0);
+    runInRoundsOfSome(F);
+    return changedAll();
+  }
   bool Changed = false;
   if (BasicBlock *Return = returnBeforeBarrier(F)) {
     const DebugLoc At = Return->getTerminator()->getDebugLoc();

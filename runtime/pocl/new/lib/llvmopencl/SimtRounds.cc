@@ -5,6 +5,8 @@
 #include "Barrier.h"
 #include "SimtAgreement.h"
 #include "SimtInstructions.h"
+#include "SimtWorkitems.h"
+#include "pocl_llvm_api.h"
 
 #include <llvm/ADT/MapVector.h>
 #include <llvm/ADT/SetVector.h>
@@ -235,6 +237,33 @@ void Rounds::run() {
 }
 
 } // namespace
+
+/// Metadata: what keepReasonOfRounds() says, for each kernel.
+static constexpr const char *Reasons = "vorion.rounds";
+
+/// Module property: the kernel is to run in rounds.
+static constexpr const char *Asked = "simt_rounds";
+
+void keepReasonOfRounds(Module &M, StringRef Reason, unsigned Line) {
+  LLVMContext &Context = M.getContext();
+  M.getOrInsertNamedMetadata(Reasons)->addOperand(
+      MDNode::get(Context, {MDString::get(Context, Reason),
+                            ConstantAsMetadata::get(ConstantInt::get(
+                                Type::getInt32Ty(Context), Line))}));
+}
+
+bool needsRounds(const Module &M) {
+  unsigned long Failure = 0;
+  getModuleIntMetadata(M, SimtFailure, Failure);
+  return Failure && !M.getNamedMetadata(Reasons);
+}
+
+void askForRounds(Module &M) { setModuleIntMetadata(&M, Asked, 1); }
+
+bool areRoundsAskedFor(const Module &M) {
+  unsigned long Found = 0;
+  return getModuleIntMetadata(M, Asked, Found) && Found;
+}
 
 void runInRounds(Function &F) { Rounds(F, /*OfSome=*/false).run(); }
 

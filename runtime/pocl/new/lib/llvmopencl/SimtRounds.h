@@ -3,8 +3,11 @@
 #ifndef POCL_SIMT_ROUNDS_H
 #define POCL_SIMT_ROUNDS_H
 
+#include <llvm/ADT/StringRef.h>
+
 namespace llvm {
 class Function;
+class Module;
 } // namespace llvm
 
 namespace pocl {
@@ -32,6 +35,19 @@ void runInRounds(llvm::Function &F);
 /// the group go on. Those that have returned go through the further rounds
 /// without doing anything. The others agree where the group goes on.
 void runInRoundsOfSome(llvm::Function &F);
+
+/// Says why a kernel runs in rounds, and in which of its lines that begins (0:
+/// not known), to the machine's compiler, which is to tell it
+/// (llvm-backend/new/Resources.cpp): the kernel itself becomes a part of
+/// others.
+void keepReasonOfRounds(llvm::Module &M, llvm::StringRef Reason, unsigned Line);
+
+/// Whether the barriers of a module's kernel could not be mapped to loops over
+/// work-items, and it does not run in rounds. Then the kernel is to be made
+/// again from the beginning, after askForRounds().
+bool needsRounds(const llvm::Module &M);
+void askForRounds(llvm::Module &M);
+bool areRoundsAskedFor(const llvm::Module &M);
 
 } // namespace pocl
 
