@@ -155,6 +155,26 @@ kernel void store_at_the_end(global uint *out, local uint *t, uint k) {
   out[id] = a[l & 3];
 }
 
+// In groups of some sizes no round has a barrier.
+kernel void barrier_in_some_rounds(global uint *out, local uint *t, uint k) {
+  NAMES, v = 0;
+  t[l] = l;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint i = 1; i < 9; i++) {
+    if (i > (l & 3)) {
+      out[id] = v;
+      return;
+    }
+    if (k & 8) {
+      if (k % 7 == 2)
+        break;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      v = v * 3 + t[(l + 1) % n];
+    }
+  }
+  out[id] = v + 100;
+}
+
 // What each leaves at the end depends on how it came there.
 kernel void jumped_to_the_end(global uint *out, local uint *t, uint k) {
   NAMES, w = l;
@@ -415,6 +435,16 @@ void storeAtTheEnd(Group &G) {
   });
 }
 
+void barrierInSomeRounds(Group &G) {
+  G.each([&](U L) {
+    const bool Breaks = (G.K & 8) && G.K % 7 == 2 && L % 4 != 0;
+    G.Out[L] = Breaks ? 100 : 0;
+    for (U I = 0; I < L % 4 && (G.K & 8) && !Breaks; ++I)
+      G.Out[L] = G.Out[L] * 3 + (L + 1) % G.N;
+    return true;
+  });
+}
+
 void jumpedToTheEnd(Group &G) {
   G.each([&](U L) {
     G.Out[L] = (L & 2 ? L : 5) + G.K;
@@ -464,6 +494,7 @@ const Kernel Kernels[] = {{"at_once", atOnce},
                           {"own_rounds", ownRounds},
                           {"long_before_the_end", ownRounds},
                           {"store_at_the_end", storeAtTheEnd},
+                          {"barrier_in_some_rounds", barrierInSomeRounds},
                           {"jumped_to_the_end", jumpedToTheEnd},
                           {"counted_rounds", countedRounds},
                           {"length_in_memory", threeRounds},

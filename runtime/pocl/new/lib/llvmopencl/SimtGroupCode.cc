@@ -144,11 +144,32 @@ bool GroupCode::findLeaving(bool AlsoParted) {
   return Found;
 }
 
-/// Whether those that join the group behind \p From have what it chooses there
-/// by the way on which it comes.
+/// Whether a way from \p From to \p Next passes the head of a loop in which
+/// that lies. Who goes there at once would be in another round than the others,
+/// or would enter the loop beside its head.
+bool GroupCode::passesHead(const BasicBlock *From,
+                           const BasicBlock *Next) const {
+  SmallPtrSet<const BasicBlock *, 16> Seen{Next};
+  SmallVector<const BasicBlock *, 16> Pending{From};
+  while (!Pending.empty())
+    for (const BasicBlock *Behind : Ways.behind(Pending.pop_back_val()))
+      if (Seen.insert(Behind).second)
+        Pending.push_back(Behind);
+  for (const Cycle *C = Cycles.getCycle(Next); C; C = C->getParentCycle())
+    if (any_of(C->getEntries(), [&](const BasicBlock *Head) {
+          return Head != Next && Seen.contains(Head);
+        }))
+      return true;
+  return false;
+}
+
+/// Whether those that join the group behind \p From come to it in the same
+/// round of each loop, and have what it chooses there by the way on which it
+/// comes.
 bool GroupCode::mayJoinBehind(const BasicBlock *From) const {
   const BasicBlock *Next = nextOf(From);
-  return Next && all_of(Next->phis(), [&](const PHINode &Phi) {
+  return Next && !passesHead(From, Next) &&
+         all_of(Next->phis(), [&](const PHINode &Phi) {
            return !isKnown(&Phi) || Phi.getBasicBlockIndex(From) >= 0;
          });
 }

@@ -7,6 +7,7 @@
 #include "SimtWays.h"
 
 #include <llvm/ADT/SmallPtrSet.h>
+#include <llvm/Analysis/CycleAnalysis.h>
 #include <llvm/IR/Constants.h>
 #include <llvm/IR/Instructions.h>
 
@@ -24,7 +25,9 @@ public:
   /// \p Differ is that of \p F, and outlives this.
   GroupCode(llvm::Function &F, const Differences &Differ, bool Coarse,
             bool Tells)
-      : F(F), Coarse(Coarse), Tells(Tells), Differ(Differ), Ways(F) {}
+      : F(F), Coarse(Coarse), Tells(Tells), Differ(Differ), Ways(F) {
+    Cycles.compute(F);
+  }
 
   /// False if the group's way to a barrier depends on what not all may compute.
   bool find();
@@ -101,6 +104,8 @@ private:
   bool dropUnknown();
   bool dropParted();
   bool findLeaving(bool AlsoParted);
+  bool passesHead(const llvm::BasicBlock *From,
+                  const llvm::BasicBlock *Next) const;
   bool mayJoinBehind(const llvm::BasicBlock *From) const;
   bool mayBeTold(const llvm::Instruction &I) const;
   bool tell(llvm::Value *V);
@@ -110,6 +115,7 @@ private:
   llvm::Function &F;
   const bool Coarse, Tells;
   const Differences &Differ;
+  llvm::CycleInfo Cycles;
   WaysToReturn Ways;
   std::set<Edge> Leaving;
   /// The branches that decide whether the group comes to a barrier.
