@@ -1,6 +1,7 @@
 """What the scripts of benchmarks share: options for a program that one runs, and how a script ends."""
 
 import os
+import shutil
 import sys
 
 
@@ -11,6 +12,14 @@ def parse(parser):
         return parser.parse_args(own), []
     at = own.index("--")
     return parser.parse_args(own[:at]), own[at + 1:]
+
+
+def check_program(parser, command):
+    """Ends the script with a usage error if the command names no program that there is."""
+    if not command:
+        parser.error("no program, expected one with its arguments")
+    if not shutil.which(command[0]):
+        parser.error(f"{command[0]}: no such program, expected one that uses OpenCL")
 
 
 def run(main):

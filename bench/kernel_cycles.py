@@ -17,7 +17,6 @@ Needs scripts/env.sh.
 import argparse
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -67,10 +66,7 @@ def main():
     parser.add_argument("--machines", default="prototype,prototype-forwarding")
     parser.add_argument("program", nargs=argparse.REMAINDER)
     options = parser.parse_args()
-    if not options.program:
-        parser.error("no program, expected one with its arguments")
-    if not shutil.which(options.program[0]):
-        parser.error(f"{options.program[0]}: no such program, expected one that uses OpenCL")
+    command_line.check_program(parser, options.program)
     names = []
     headings = ["machine", "kernel", "launches", "instr.", "cycles", *REASONS]
     for machine in options.machines.split(","):

@@ -20,7 +20,6 @@ import json
 import math
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -217,11 +216,8 @@ def main():
     parser.add_argument("programs", nargs=argparse.REMAINDER)
     options = parser.parse_args()
     commands = commands_of(options.programs)
-    if not commands:
-        parser.error("no program, expected one with its arguments")
-    for command in commands:
-        if not shutil.which(command[0]):
-            parser.error(f"{command[0]}: no such program, expected one that uses OpenCL")
+    for command in commands or [[]]:
+        command_line.check_program(parser, command)
     try:
         if options.keep:
             folder = os.path.abspath(options.keep)
