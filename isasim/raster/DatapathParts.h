@@ -133,8 +133,8 @@ using Exps = Bodies<ExpBody, ExpRowCount>;
          __builtin_cpu_supports("avx512dq") &&
          __builtin_cpu_supports("avx512vl");
 #elif defined(__AVX2__)
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
-         __builtin_cpu_supports("popcnt");
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+         __builtin_cpu_supports("bmi") && __builtin_cpu_supports("popcnt");
 #else
   return true;
 #endif

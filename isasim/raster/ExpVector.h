@@ -11,9 +11,20 @@
 namespace vorion::raster {
 namespace {
 
+/// A * B + C, rounded once where the level can do that fast. So intermediate
+/// values may depend on the level.
+VORION_INLINE Double8 multiplyAdd(Double8 A, Double8 B, Double8 C) {
+#ifdef __FMA__
+  return __builtin_elementwise_fma(A, B, C);
+#else
+  return A * B + C;
+#endif
+}
+
 /// exp(x) in double, -104 <= x <= 0, relative error below 2^-52: near enough
-/// for every fp32 x to round to the right float (ExpUnits_test.cpp goes
-/// through all of them). No fma: results must not depend on the level.
+/// for every fp32 x to round to the right float, with and without
+/// multiplyAdd()'s single rounding (ExpUnits_test.cpp goes through all of
+/// them).
 VORION_INLINE Double8 expDouble(Double8 X) {
   constexpr double Log2E = 0x1.71547652b82fep0;
   // ln 2 in two parts, the first with 21 bits so that k * Ln2High is exact.
@@ -22,20 +33,22 @@ VORION_INLINE Double8 expDouble(Double8 X) {
   // Adding it leaves the nearest integer in the low bits of the significand.
   constexpr double RoundToInteger = 0x1.8p52;
 
-  const Double8 Shifted = X * Log2E + RoundToInteger;
+  const Double8 Shifted = multiplyAdd(X, Log2E, RoundToInteger);
   const Double8 K = Shifted - RoundToInteger;
-  const Double8 R = (X - K * Ln2High) - K * Ln2Low;
+  const Double8 R = multiplyAdd(K, -Ln2Low, multiplyAdd(K, -Ln2High, X));
 
-  // Taylor series: |R| <= ln(2)/2, so the first term left out is below 2^-57.
-  constexpr double Inverse[] = {
-      1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
-      1.0 / 362880,     1.0 / 40320,     1.0 / 5040,     1.0 / 720,
-      1.0 / 120,        1.0 / 24,        1.0 / 6,        1.0 / 2};
-  Double8 Tail = Inverse[0];
+  // (exp(r) - 1 - r) / r^2 interpolated at the ten Chebyshev nodes of |r| <=
+  // ln(2)/2: exp(r) to within 2^-55. From the highest power down.
+  constexpr double Coefficients[] = {
+      0x1.af389ecfc4b9cp-26, 0x1.28917c89a43a7p-22, 0x1.71de0db2f6b19p-19,
+      0x1.a019b9149a41cp-16, 0x1.a01a01a7c2efep-13, 0x1.6c16c17889ef1p-10,
+      0x1.11111111109b5p-7,  0x1.5555555553d68p-5,  0x1.5555555555556p-3,
+      0x1.0000000000001p-1};
+  Double8 Tail = Coefficients[0];
 #pragma clang loop unroll(full)
-  for (unsigned I = 1; I != sizeof(Inverse) / sizeof(Inverse[0]); ++I)
-    Tail = Tail * R + Inverse[I];
-  const Double8 E = 1.0 + (R + R * R * Tail);
+  for (unsigned I = 1; I != sizeof(Coefficients) / sizeof(Coefficients[0]); ++I)
+    Tail = multiplyAdd(Tail, R, Coefficients[I]);
+  const Double8 E = 1.0 + multiplyAdd(R * R, Tail, R);
 
   // Times 2^K: K sits in Shifted's low bits, modulo 2^12 is enough.
   return __builtin_bit_cast(Double8,
