@@ -76,6 +76,8 @@ Photo shrink(const Plane &P, int Width, int Height,
 }
 
 Photo shrink(const Photo &P, int Width, int Height) {
+  if (Width == P.Width && Height == P.Height)
+    return P;
   return averaged(static_cast<std::size_t>(P.Width),
                   static_cast<std::size_t>(P.Height), Width, Height,
                   [&](std::size_t Pixel, std::size_t Channel) -> double {

@@ -195,14 +195,14 @@ std::optional<double> msSsim(const std::vector<double> &A,
 double psnrOfBytes(const std::vector<uint8_t> &A,
                    const std::vector<uint8_t> &B) {
   assert(A.size() == B.size() && "pictures of different sizes");
-  double Squares = 0;
+  uint64_t Squares = 0;
   for (std::size_t I = 0; I < A.size(); ++I) {
-    const double Delta = int{A[I]} - int{B[I]};
-    Squares += Delta * Delta;
+    const int Delta = int{A[I]} - int{B[I]};
+    Squares += static_cast<uint64_t>(Delta * Delta);
   }
-  return Squares > 0
-             ? 10 * std::log10(255.0 * 255.0 * double(A.size()) / Squares)
-             : Infinity;
+  return Squares > 0 ? 10 * std::log10(255.0 * 255.0 * double(A.size()) /
+                                       static_cast<double>(Squares))
+                     : Infinity;
 }
 
 double psnrOfBytes(const std::vector<uint8_t> &A, const std::vector<uint8_t> &B,
