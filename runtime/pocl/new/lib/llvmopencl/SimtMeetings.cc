@@ -283,22 +283,37 @@ bool separateHeads(Function &F) {
                 [](const Loop *L) { return separateHeads(*L); });
 }
 
-/// Tells whoever listens (docs/backend.md, Remarks) why the kernel is slow.
-void tellOfRounds(Function &F, const DebugLoc &Return,
-                  const DebugLoc &Obstacle) {
-  std::string Reason =
-      "work-items may return here before a barrier to which others come";
-  if (Obstacle)
-    Reason += ", and those may not agree on their way to it in line " +
-              std::to_string(Obstacle.getLine());
-  keepReasonOfRounds(*F.getParent(), Reason, Return ? Return.getLine() : 0);
+/// Tells whoever listens (docs/backend.md, Remarks) why the kernel is slow, and
+/// where that begins, if it is known.
+void tellOfRounds(Function &F, StringRef Reason, const DebugLoc &At) {
+  keepReasonOfRounds(*F.getParent(), Reason, At ? At.getLine() : 0);
   OptimizationRemarkEmitter(&F).emit([&] {
-    return OptimizationRemarkMissed("vorion-returns", "Rounds", Return,
+    return OptimizationRemarkMissed("vorion-returns", "Rounds", At,
                                     &F.getEntryBlock())
            << Reason
            << ": the kernel runs in rounds from barrier to barrier, which "
               "takes more time";
   });
+}
+
+/// Why a kernel in which work-items return runs in rounds.
+std::string reasonOfReturns(const DebugLoc &Obstacle) {
+  std::string Reason =
+      "work-items may return here before a barrier to which others come";
+  if (Obstacle)
+    Reason += ", and those may not agree on their way to it in line " +
+              std::to_string(Obstacle.getLine());
+  return Reason;
+}
+
+/// In rounds, because all else has failed.
+void runInRoundsAsAsked(Function &F) {
+  const BasicBlock *Return = returnBeforeBarrier(F);
+  tellOfRounds(F,
+               "the kernel's barriers do not divide it into loops over "
+               "work-items",
+               Return ? Return->getTerminator()->getDebugLoc() : DebugLoc());
+  runInRoundsOfSome(F);
 }
 
 PreservedAnalyses changedAll() {
@@ -313,11 +328,7 @@ PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
   if (!isKernelToProcess(F) || !hasWorkgroupBarriers(F))
     return PreservedAnalyses::all();
   if (areRoundsAskedFor(*F.getParent())) {
-    keepReasonOfRounds(*F.getParent(),
-                       "its barriers do not divide the kernel into loops over "
-                       "work-items",
-                       0);
-    runInRoundsOfSome(F);
+    runInRoundsAsAsked(F);
     return changedAll();
   }
   bool Changed = false;
@@ -325,7 +336,7 @@ PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
     const DebugLoc At = Return->getTerminator()->getDebugLoc();
     DebugLoc Obstacle;
     if (!guardReturned(F, Obstacle)) {
-      tellOfRounds(F, At, Obstacle);
+      tellOfRounds(F, reasonOfReturns(Obstacle), At);
       runInRoundsOfSome(F);
       return changedAll();
     }
