@@ -7,7 +7,7 @@ The rounds are interleaved, figures are medians. "outside kernels" is what the w
 compiling, copies, the host's part of the work. With --iterations the program runs with `--iterations FEW` and with
 `--iterations MANY`, and the figures are of one iteration between these. {folder} in an option is a new, empty folder.
 VORION_STATS gives the kernels' times. It writes its file after each kernel, so the whole process is measured in runs without
-it. Exit codes: 0, 1 a run failed, 2 usage.
+it, and "-" stands where runs lie further apart than that. Exit codes: 0, 1 a run failed, 2 usage.
 """
 import argparse
 import collections
@@ -21,6 +21,7 @@ import tempfile
 import command_line
 
 LEAST_SHARE = 0.01
+OUTSIDE = "outside kernels"
 
 
 def run(command, engine, stats=None):
@@ -73,21 +74,33 @@ def rows(medians):
     found = [row(name, [name]) for name in large]
     found.append(row("other kernels", [name for name in names if name not in large]))
     kernels = row("", names)[1]
-    found.append(("outside kernels", {engine: 1000 * wholes[engine] - kernels[engine] for engine in medians}))
+    found.append((OUTSIDE, {engine: 1000 * wholes[engine] - kernels[engine] for engine in medians}))
     found.append(row("all", [None]))
     return found
 
 
+def spread(seconds):
+    """How far runs lie apart, in milliseconds."""
+    return 1000 * (max(seconds) - min(seconds))
+
+
+def shown(what, milliseconds, spread_of_runs):
+    """A difference of two runs is no figure where runs lie further apart."""
+    if what == OUTSIDE and abs(milliseconds) <= spread_of_runs:
+        return "-"
+    return f"{milliseconds:.1f}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--rounds", type=int, default=5, help="at least 2: how far they lie apart says what is noise")
     parser.add_argument("--iterations", type=int, nargs=2, metavar=("FEW", "MANY"), help="of one iteration between these")
     parser.add_argument("--engines", default="interpreter,auto")
     parser.add_argument("--json", help="write the figures")
     options, command = command_line.parse(parser)
     command_line.check_program(parser, command)
-    if options.rounds < 1:
-        parser.error(f"--rounds: {options.rounds}, expected at least 1")
+    if options.rounds < 2:
+        parser.error(f"--rounds: {options.rounds}, expected at least 2")
     if options.iterations and options.iterations[0] >= options.iterations[1]:
         parser.error("--iterations: the second number must be larger")
     engines = options.engines.split(",")
@@ -98,13 +111,13 @@ def main():
                 found[engine].append(once(options, command, engine, os.path.join(folder, "stats.json")))
     medians = {engine: collections.Counter({part: statistics.median(each[part] for each in runs) for part in runs[0]})
                for engine, runs in found.items()}
+    spreads = {engine: spread([each[None] for each in runs]) for engine, runs in found.items()}
     table = rows(medians)
     print(f"| ms of processor time | {' | '.join(engines)} |\n|---|{'--:|' * len(engines)}")
     for what, by_engine in table:
-        print(f"| {what} | {' | '.join(f'{by_engine[engine]:.1f}' for engine in engines)} |")
+        print(f"| {what} | {' | '.join(shown(what, by_engine[engine], spreads[engine]) for engine in engines)} |")
     for engine in engines:
-        wholes = [1000 * each[None] for each in found[engine]]
-        print(f"{engine}: all of them from {min(wholes):.1f} to {max(wholes):.1f} ms in {options.rounds} rounds")
+        print(f"{engine}: all of them differ by {spreads[engine]:.1f} ms in {options.rounds} rounds")
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump([{"what": what, "ms": by_engine} for what, by_engine in table], file, indent=2)
