@@ -7,7 +7,7 @@ The rounds are interleaved, figures are medians. "outside kernels" is what the w
 compiling, copies, the host's part of the work. With --iterations the program runs with `--iterations FEW` and with
 `--iterations MANY`, and the figures are of one iteration between these. {folder} in an option is a new, empty folder.
 VORION_STATS gives the kernels' times. It writes its file after each kernel, so the whole process is measured in runs without
-it, and "-" stands where runs lie further apart than that. Exit codes: 0, 1 a run failed, 2 usage.
+it. "outside kernels" is "-" if the runs lie further apart than that figure. Exit codes: 0, 1 a run failed, 2 usage.
 """
 import argparse
 import collections
@@ -21,7 +21,6 @@ import tempfile
 import command_line
 
 LEAST_SHARE = 0.01
-OUTSIDE = "outside kernels"
 
 
 def run(command, engine, stats=None):
@@ -62,8 +61,11 @@ def once(options, command, engine, stats):
     return {part: (more[part] - less[part]) / (many - few) for part in more}
 
 
-def rows(medians):
-    """(what, milliseconds by engine): kernels, the dearest first, those below LEAST_SHARE together, and what is no kernel."""
+def rows(medians, spreads):
+    """(what, milliseconds by engine): kernels, the dearest first, those below LEAST_SHARE together, and what is no kernel.
+
+    That is a difference of two runs, and None where runs lie further apart (`spreads`, by engine).
+    """
     wholes = {engine: of[None] for engine, of in medians.items()}
     names = sorted({name for of in medians.values() for name in of if name},
                    key=lambda name: -max(of[name] for of in medians.values()))
@@ -74,7 +76,8 @@ def rows(medians):
     found = [row(name, [name]) for name in large]
     found.append(row("other kernels", [name for name in names if name not in large]))
     kernels = row("", names)[1]
-    found.append((OUTSIDE, {engine: 1000 * wholes[engine] - kernels[engine] for engine in medians}))
+    outside = {engine: 1000 * wholes[engine] - kernels[engine] for engine in medians}
+    found.append(("outside kernels", {engine: ms if abs(ms) > spreads[engine] else None for engine, ms in outside.items()}))
     found.append(row("all", [None]))
     return found
 
@@ -82,13 +85,6 @@ def rows(medians):
 def spread(seconds):
     """How far runs lie apart, in milliseconds."""
     return 1000 * (max(seconds) - min(seconds))
-
-
-def shown(what, milliseconds, spread_of_runs):
-    """A difference of two runs is no figure where runs lie further apart."""
-    if what == OUTSIDE and abs(milliseconds) <= spread_of_runs:
-        return "-"
-    return f"{milliseconds:.1f}"
 
 
 def main():
@@ -112,10 +108,10 @@ def main():
     medians = {engine: collections.Counter({part: statistics.median(each[part] for each in runs) for part in runs[0]})
                for engine, runs in found.items()}
     spreads = {engine: spread([each[None] for each in runs]) for engine, runs in found.items()}
-    table = rows(medians)
+    table = rows(medians, spreads)
     print(f"| ms of processor time | {' | '.join(engines)} |\n|---|{'--:|' * len(engines)}")
     for what, by_engine in table:
-        print(f"| {what} | {' | '.join(shown(what, by_engine[engine], spreads[engine]) for engine in engines)} |")
+        print(f"| {what} | {' | '.join('-' if by_engine[engine] is None else f'{by_engine[engine]:.1f}' for engine in engines)} |")
     for engine in engines:
         print(f"{engine}: all of them differ by {spreads[engine]:.1f} ms in {options.rounds} rounds")
     if options.json:

@@ -6,7 +6,6 @@ using namespace vorion::test;
 
 namespace {
 
-/// Behind ItemMacros and EarlyReturnNames.
 const char *const Source = R"(
 kernel void in_loop(global uint *out, local uint *t, uint k) {
   NAMES;
@@ -286,29 +285,22 @@ void rounds(Group &G, U Count) {
 void countedRounds(Group &G) { rounds(G, G.Number + 2); }
 void threeRounds(Group &G) { rounds(G, 3); }
 
-const EarlyReturn Kernels[] = {{"in_loop", inLoop},
-                               {"from_two_loops", fromTwoLoops},
-                               {"own_rounds", ownRounds},
-                               {"long_before_the_end", ownRounds},
-                               {"store_at_the_end", storeAtTheEnd},
-                               {"barrier_in_some_rounds", barrierInSomeRounds},
-                               {"counted_rounds", countedRounds},
-                               {"length_in_memory", threeRounds},
-                               {"read_in_rounds", threeRounds},
-                               {"counted_down", threeRounds}};
-
-cl::Program build(const TestDevice &Device) {
-  return Device.build(std::string(ItemMacros) + EarlyReturnNames + Source);
-}
+const std::vector<EarlyReturn> Kernels = {
+    {"in_loop", inLoop},
+    {"from_two_loops", fromTwoLoops},
+    {"own_rounds", ownRounds},
+    {"long_before_the_end", ownRounds},
+    {"store_at_the_end", storeAtTheEnd},
+    {"barrier_in_some_rounds", barrierInSomeRounds},
+    {"counted_rounds", countedRounds},
+    {"length_in_memory", threeRounds},
+    {"read_in_rounds", threeRounds},
+    {"counted_down", threeRounds}};
 
 class EarlyReturnLoopsOf : public testing::TestWithParam<Shape> {};
 
 TEST_P(EarlyReturnLoopsOf, TheOthersPassTheirBarriers) {
-  const TestDevice Device;
-  VORION_REQUIRE_DEVICE(Device);
-  const cl::Program Program = build(Device);
-  for (const EarlyReturn &K : Kernels)
-    compare(Device, Program, K, GetParam());
+  compareAll(Source, Kernels, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, EarlyReturnLoopsOf, EarlyReturnShapes);

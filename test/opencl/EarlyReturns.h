@@ -13,8 +13,7 @@ namespace vorion::test {
 /// Groups of a launch.
 constexpr U EarlyReturnGroups = 4;
 
-/// OpenCL C for the names that kernels have for their work-items; behind
-/// ItemMacros.
+/// OpenCL C for the names that kernels have for their work-items.
 inline const char *const EarlyReturnNames = R"(
 #define NAMES uint l = ITEM, n = ITEMS, id = get_group_id(0) * n + l
 )";
@@ -67,6 +66,18 @@ inline void compare(const TestDevice &Device, const cl::Program &Program,
     ASSERT_EQ(Values(Start, Start + N), G.Out)
         << Tested.Name << ", group " << Number;
   }
+}
+
+/// Builds \p Source, which names a work-item by EarlyReturnNames, and compares
+/// its kernels in groups of one shape.
+inline void compareAll(const std::string &Source,
+                       const std::vector<EarlyReturn> &Kernels, Shape S) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  const cl::Program Program =
+      Device.build(std::string(ItemMacros) + EarlyReturnNames + Source);
+  for (const EarlyReturn &K : Kernels)
+    compare(Device, Program, K, S);
 }
 
 /// The shapes of groups that all such kernels run in.

@@ -42,9 +42,9 @@ BlockSet reachedTwice(BasicBlock &Block, const BasicBlock *Without) {
   return Twice;
 }
 
-/// Demotes a value, and reads it in front of a barrier that ends a block whose
-/// branch it decides. A read behind that barrier would begin a region there,
-/// which takes in what lies behind the branch. No barrier changes the variable.
+/// Keeps a value in a variable. If it decides a branch right behind a barrier,
+/// it is read in front of that barrier, which does not change it. A read behind
+/// would begin a region there, and that would take in what follows the branch.
 static void keepInVariable(Instruction *I) {
   SmallVector<std::pair<Instruction *, Instruction *>, 2> Ended;
   for (User *Of : I->users())

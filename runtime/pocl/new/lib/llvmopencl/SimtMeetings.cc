@@ -306,7 +306,7 @@ std::string reasonOfReturns(const DebugLoc &Obstacle) {
   return Reason;
 }
 
-/// In rounds, because all else has failed.
+/// For a kernel that could not be mapped to loops over work-items.
 void runInRoundsAsAsked(Function &F) {
   const BasicBlock *Return = returnBeforeBarrier(F);
   tellOfRounds(F,
