@@ -18,6 +18,9 @@ from csmith_source import LANES
 from machines import CONFIGURATIONS, Device, Endless, Linux, Refused, Wrong
 from module import SHARED_START, SHARED_WORDS
 
+# Lanes that part may need as many instructions as all their plain programs together, of which each has seconds of a processor.
+MAX_WARP_INSTRUCTIONS = 4_000_000_000
+
 
 def is_as_written(linux, source, base, got):
     """Whether the plain program has the device's results where nothing is optimised: csmith takes addresses of unions' members,
@@ -51,7 +54,7 @@ def check(linux, seed, folder):
         device = Device()
         program = device.compile(source, base, configuration)
         start = bytes(4 * LANES) + SHARED_START.to_bytes(4, "little") * SHARED_WORDS
-        got = device.run(program, base, 1, LANES, ["u32:0", f"u32:{LANES}", "local:256"], start)
+        got = device.run(program, base, 1, LANES, ["u32:0", f"u32:{LANES}", "local:256"], start, MAX_WARP_INSTRUCTIONS)
         if got != expected and is_as_written(linux, source, base, got):
             return {"seed": seed, "counts": {"levels differ": 1}, "bad": []}
         bad = [] if got == expected else [f"{configuration}: wrong: lanes " + " ".join(
