@@ -24,6 +24,7 @@ constexpr uint32_t FlagRve = 0x8;
 constexpr const char *KernelSection = "vorion_kernels";
 constexpr const char *VariableSection = "vorion_variables";
 constexpr const char *WarpsSection = "vorion_warps";
+constexpr const char *AtomicsSection = "vorion_atomics";
 constexpr uint32_t MaxArgs = 4096; ///< more than OpenCL's 256 KiB could hold
 constexpr uint32_t MaxArgsBytes = 256 << 10;
 
@@ -212,17 +213,21 @@ std::string ImageParser::readSections() {
       if (std::string Wrong = readSymbols(*S); !Wrong.empty())
         return Wrong;
     }
+    const auto IsCalled = [&](const char *Name) {
+      const size_t Length = std::strlen(Name) + 1;
+      return S->sh_name < SectionNames.size() &&
+             SectionNames.size() - S->sh_name >= Length &&
+             std::memcmp(SectionNames.data() + S->sh_name, Name, Length) == 0;
+    };
     for (const auto &[Name, Table] :
          {std::pair(KernelSection, &KernelTable),
           std::pair(VariableSection, &VariableTable),
-          std::pair(WarpsSection, &WarpsCode)}) {
-      const size_t Length = std::strlen(Name) + 1;
-      if (S->sh_name < SectionNames.size() &&
-          SectionNames.size() - S->sh_name >= Length &&
-          std::memcmp(SectionNames.data() + S->sh_name, Name, Length) == 0 &&
-          (S->sh_flags & SHF_ALLOC))
+          std::pair(WarpsSection, &WarpsCode)})
+      if (IsCalled(Name) && (S->sh_flags & SHF_ALLOC))
         *Table = {S->sh_addr, S->sh_addr + S->sh_size};
-    }
+    if (IsCalled(AtomicsSection))
+      if (std::string Wrong = readAtomicPlaces(*S); !Wrong.empty())
+        return Wrong;
   }
   findBySymbols(KernelSection, KernelTable);
   findBySymbols(VariableSection, VariableTable);
@@ -242,6 +247,24 @@ std::string ImageParser::readWarps() {
   Result->WarpsEntry = WarpsCode.Lo;
   for (Kernel &K : Result->Kernels)
     K.SharesCore = !NeedsCore;
+  return {};
+}
+
+std::string ImageParser::readAtomicPlaces(const Elf32_Shdr &Table) {
+  const auto Words = part(Table.sh_offset, Table.sh_size);
+  if (!Words)
+    return fmt::format("truncated: section {} lies beyond the end of the file",
+                       AtomicsSection);
+  std::vector<uint32_t> &Places = Result->AtomicPlaces;
+  // Sections share no bytes.
+  if (Places.size() * sizeof(uint32_t) + Words->size() > File.size())
+    return fmt::format("sections {} of more bytes than the file has",
+                       AtomicsSection);
+  for (uint32_t At = 0; At + sizeof(uint32_t) <= Words->size();
+       At += sizeof(uint32_t))
+    // Each word says how far from itself an instruction lies.
+    Places.push_back(*get<uint32_t>(Table.sh_offset + At) + Table.sh_addr + At);
+  std::ranges::sort(Places);
   return {};
 }
 

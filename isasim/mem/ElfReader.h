@@ -37,6 +37,7 @@ private:
   std::string readVariables();
   std::string readVariables(uint32_t Address);
   std::string readWarps();
+  std::string readAtomicPlaces(const Elf32_Shdr &Table);
   /// Whether the code uses what a core has once: its Raster Agent, or barriers
   /// between warps that count them.
   bool needsCoreAlone() const;

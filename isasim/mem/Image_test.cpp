@@ -357,6 +357,23 @@ TEST(Image, AbsoluteSymbolsCount) {
   EXPECT_EQ((*Both)->symbolize(VX_IMAGE_BASE), "_start");
 }
 
+TEST(Image, KnowsWhichLoadsAndStoresAreAtomic) {
+  ElfOptions O = good();
+  // The words lie at 0 and 4, and say how far away the instructions are.
+  O.Atomics = {VX_IMAGE_BASE + 8, VX_IMAGE_BASE - 4};
+  const auto Program = Image::parse(buildElf(O), "test");
+  ASSERT_TRUE(Program) << Program.error().What;
+  EXPECT_TRUE((*Program)->isAtomicPlace(VX_IMAGE_BASE));
+  EXPECT_FALSE((*Program)->isAtomicPlace(VX_IMAGE_BASE + 4));
+  EXPECT_TRUE((*Program)->isAtomicPlace(VX_IMAGE_BASE + 8));
+
+  O.Atomics.assign(1000, 0);
+  EXPECT_EQ(wrongIn(O), "");
+  O.AtomicSections = 1000;
+  EXPECT_EQ(wrongIn(O),
+            "sections vorion_atomics of more bytes than the file has");
+}
+
 TEST(Image, EveryTruncationIsAnError) {
   const std::vector<std::byte> Whole = buildElf(withKernel());
   ASSERT_TRUE(Image::parse(Whole, "x.elf"));

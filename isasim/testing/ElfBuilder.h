@@ -28,6 +28,9 @@ struct ElfOptions {
   /// Symbols of no type in section 1.
   std::vector<std::pair<std::string, uint32_t>> Symbols;
   std::vector<std::pair<std::string, uint32_t>> AbsoluteSymbols;
+  /// How often the section vorion_atomics is there, and its words.
+  unsigned AtomicSections = 1;
+  std::vector<uint32_t> Atomics;
 };
 
 inline std::vector<std::byte> buildElf(const ElfOptions &O) {
@@ -52,7 +55,7 @@ inline std::vector<std::byte> buildElf(const ElfOptions &O) {
     std::memcpy(File.data() + sizeof(Elf32_Ehdr) + N * sizeof(P), &P,
                 sizeof(P));
   }
-  // Sections: none, strings (of symbols and sections), symbols.
+  // Sections: none, strings (of symbols and sections), symbols, and atomics.
   std::string Strings(1, '\0');
   std::vector<Elf32_Sym> Symbols(1);
   const auto AddSymbols = [&](const auto &Each, uint16_t Section) {
@@ -67,7 +70,16 @@ inline std::vector<std::byte> buildElf(const ElfOptions &O) {
   };
   AddSymbols(O.Symbols, 1);
   AddSymbols(O.AbsoluteSymbols, SHN_ABS);
-  Elf32_Shdr Sections[3] = {};
+  std::vector<Elf32_Shdr> Sections(3);
+  if (!O.Atomics.empty()) {
+    Elf32_Shdr S{};
+    S.sh_name = static_cast<uint32_t>(Strings.size());
+    Strings += std::string("vorion_atomics") + '\0';
+    S.sh_type = SHT_PROGBITS;
+    S.sh_size = static_cast<uint32_t>(O.Atomics.size() * 4);
+    S.sh_offset = Append(O.Atomics.data(), S.sh_size);
+    Sections.insert(Sections.end(), O.AtomicSections, S);
+  }
   Sections[1].sh_type = SHT_STRTAB;
   Sections[1].sh_offset = Append(Strings.data(), Strings.size());
   Sections[1].sh_size = static_cast<uint32_t>(Strings.size());
@@ -94,9 +106,9 @@ inline std::vector<std::byte> buildElf(const ElfOptions &O) {
   H.e_phentsize = sizeof(Elf32_Phdr);
   H.e_phnum = static_cast<uint16_t>(O.Segments.size());
   H.e_shentsize = sizeof(Elf32_Shdr);
-  H.e_shnum = 3;
+  H.e_shnum = static_cast<uint16_t>(Sections.size());
   H.e_shstrndx = 1;
-  H.e_shoff = Append(Sections, sizeof(Sections));
+  H.e_shoff = Append(Sections.data(), Sections.size() * sizeof(Elf32_Shdr));
   std::memcpy(File.data(), &H, sizeof(H));
   return File;
 }

@@ -236,6 +236,7 @@ bool LowerDivergence::runOnFunction(Function &F) {
   const auto &Subtarget = TM.getSubtarget<RISCVSubtarget>(F);
   if (!Subtarget.hasVendorXVortex())
     return false;
+  vorion::markAtomicPlaces(F);
   FunctionAnalysisManager Analyses;
   registerAnalyses(Analyses, TM);
   if (vorion::lowerDivergence(F, Analyses, Subtarget,

@@ -84,6 +84,10 @@ bool markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
 bool markDivergentJoins(Function &F, UniformityInfo &Uniform,
                         const PostDominatorTree &PostDominators);
 
+/// Marks loads and stores that are atomic, for the section vorion_atomics. True
+/// if there was one.
+bool markAtomicPlaces(Function &F);
+
 /// Puts the splits, joins and predicates in. Every loop is in step.
 void insertSplits(Function &F, FunctionAnalysisManager &Analyses);
 

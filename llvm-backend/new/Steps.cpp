@@ -58,6 +58,10 @@ constexpr std::pair<StringLiteral, Step> Steps[] = {
            F, Analyses.getResult<LoopAnalysis>(F), /*Known=*/true,
            [](IRBuilder<> &Builder) { return Builder.getTrue(); });
      }},
+    {"vorion-atomic-places",
+     [](Function &F, FunctionAnalysisManager &, const RISCVSubtarget &) {
+       return vorion::markAtomicPlaces(F);
+     }},
     {"vorion-uniform-tests",
      [](Function &F, FunctionAnalysisManager &Analyses,
         const RISCVSubtarget &) {

@@ -32,6 +32,13 @@ public:
   /// accesses memory.
   std::string describeAccess(const Step &S, unsigned Lane) const;
 
+  /// Whether \p S, which accesses memory, is an atomic, or a load or store that
+  /// the program's compiler knows to be one.
+  bool isAtomic(const Step &S) const {
+    return S.Access->What == MemoryAccess::Atomic ||
+           (Code && Code->isAtomicPlace(S.Pc));
+  }
+
   /// Who has local memory, and groups, one after the other: a warp where a
   /// launch gives groups to warps, else a core. Numbers below agents().
   unsigned agentOf(const Step &S) const {

@@ -14,13 +14,18 @@ namespace {
 constexpr uint32_t PageShift = 12;
 constexpr uint32_t DeviceBarrier = 1U << 31; ///< in vx_bar's rs1 (Simt.td)
 
+bool isCompareExchange(Op Opcode) {
+  return Opcode == Op::RV_AMOCAS_W || Opcode == Op::RV_AMOCAS_D;
+}
+
 } // namespace
 
-void RaceCheck::runBegins(const RunStart & /*R*/) {
+void RaceCheck::runBegins(const RunStart &R) {
   const unsigned Count = Where.agents();
   Pages.clear();
   Released.clear();
   Agents.assign(Count, AgentState());
+  Expected.assign(size_t{R.Shape.cores()} * R.Shape.WarpsPerCore, {});
   Groups = 0;
   for (AgentState &A : Agents) {
     A.Acquired.assign(Count, 0);
@@ -32,6 +37,11 @@ void RaceCheck::fetch(const Step &S) {
   // All who take part have arrived before the first one goes on.
   if (S.Insn.Opcode == Op::VX_BAR)
     ownOf(S).Arrived = ownOf(S).Now;
+  if (isCompareExchange(S.Insn.Opcode))
+    for (unsigned N = 0; N != (S.Insn.info().Pairs ? 2 : 1); ++N)
+      std::copy_n(S.State.lanes((S.Insn.Rd + N) * sizeof(LaneWords)),
+                  Expected[warpOf(S)][N].size(),
+                  Expected[warpOf(S)][N].begin());
   if (!Where.hasLaunch() || S.Pc != Where.launch().Entry)
     return;
   // A new group comes after nothing of this run.
@@ -57,14 +67,14 @@ bool RaceCheck::isShared(uint32_t Address) const {
   return false;
 }
 
-RaceCheck::Cell &RaceCheck::cellOf(uint32_t Address, unsigned Agent) {
+RaceCheck::Page &RaceCheck::pageOf(uint32_t Address, unsigned Agent) {
   const bool IsLocal = Where.kindOf(Address) == Places::Local;
   const uint64_t Number =
       Address >> PageShift | uint64_t{IsLocal ? Agent + 1 : 0} << 32;
   std::unique_ptr<Page> &P = Pages[Number];
   if (!P)
     P = std::make_unique<Page>();
-  return (*P)[Address % (1U << PageShift) / 4];
+  return *P;
 }
 
 bool RaceCheck::isOrdered(const Access &Earlier, const Access &Now,
@@ -77,23 +87,22 @@ bool RaceCheck::isOrdered(const Access &Earlier, const Access &Now,
 }
 
 void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
-                      const Access &Now, bool EarlierWrites) {
+                      const Access &Now) {
   if (Earlier.Group == 0 || !(Earlier.Bytes & Now.Bytes) ||
-      (Earlier.IsAtomic && Now.IsAtomic))
+      (Earlier.IsAtomic && Now.IsAtomic) || (!Earlier.Writes && !Now.Writes))
     return;
   const uint32_t Address = C.Access->Addresses[Lane];
   if (isOrdered(Earlier, Now, Where.kindOf(Address) == Places::Local))
     return;
   const unsigned Lanes = Where.shape().LanesPerWarp;
-  constexpr const char *Names[] = {"load", "store", "atomic"};
+  const auto NameOf = [](const Access &A) {
+    return A.IsAtomic ? "atomic" : A.Writes ? "store" : "load";
+  };
   Out.add(Culprit::of(C, Lane),
           fmt::format("{} at 0x{:08x}, {}, is not ordered with the {} by core "
                       "{}, warp {}, lane {}{} at {}",
-                      Names[C.Access->What], Address,
-                      Where.describe(Address, C, Lane),
-                      Earlier.IsAtomic ? "atomic"
-                      : EarlierWrites  ? "store"
-                                       : "load",
+                      NameOf(Now), Address, Where.describe(Address, C, Lane),
+                      NameOf(Earlier),
                       Earlier.Agent / Where.shape().WarpsPerCore,
                       Earlier.Hart / Lanes, Earlier.Hart % Lanes,
                       Earlier.Group == Now.Group ? " of the same group" : "",
@@ -101,10 +110,33 @@ void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
           Earlier.Pc);
 }
 
+/// Adds \p Now to the accesses of its kind. What happened before it goes: who
+/// races with that also races with \p Now.
+void RaceCheck::keep(Pair &Kept, const Access &Now, bool IsLocal) const {
+  for (Access &Earlier : Kept)
+    if (Earlier.Group != 0 && isOrdered(Earlier, Now, IsLocal))
+      Earlier = {};
+  if (Kept[0].Group == 0 || (Kept[1].Group != 0 && Kept[0].Group == Now.Group))
+    std::swap(Kept[0], Kept[1]);
+  Kept[1] = std::exchange(Kept[0], Now);
+}
+
+/// Whether the access of \p Lane writes: an atomic load does not, nor does a
+/// compare-exchange that found another value.
+bool RaceCheck::writes(const Commit &C, unsigned Lane) const {
+  if (C.Access->What != MemoryAccess::Atomic)
+    return C.Access->What == MemoryAccess::Store;
+  if (!isCompareExchange(C.Insn.Opcode) || C.Result.empty())
+    return true;
+  const auto &Wanted = Expected[warpOf(C)];
+  return C.Result[Lane] == Wanted[0][Lane] &&
+         (C.HighResult.empty() || C.HighResult[Lane] == Wanted[1][Lane]);
+}
+
 /// The part of a lane's access that lies in the word of \p Address.
 void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
-  const bool IsAtomic = C.Access->What == MemoryAccess::Atomic;
   const AgentState &Own = ownOf(C);
+  const bool IsLocal = Where.kindOf(Address) == Places::Local;
   Access Now;
   Now.Group = Own.Group;
   Now.When = Own.Now;
@@ -112,24 +144,30 @@ void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
   Now.Agent = static_cast<uint16_t>(Where.agentOf(C));
   Now.Hart = static_cast<uint8_t>(C.Warp * Where.shape().LanesPerWarp + Lane);
   Now.Bytes = (((1U << C.Access->Bytes) - 1) << Address % 4) & 15;
-  Now.IsAtomic = IsAtomic;
-  Cell &At = cellOf(Address, Now.Agent);
-  check(C, Lane, At.Write, Now, true);
-  if (C.Access->What == MemoryAccess::Load) {
-    // Two readers that differ: a writer differs from one of them.
-    Access &First = At.Reads[0];
-    if (First.Group != Now.Group || First.Hart == Now.Hart)
-      std::swap(At.Reads[0], At.Reads[1]);
-    if (At.Reads[0].Group == Now.Group && At.Reads[0].Hart == Now.Hart)
-      At.Reads[0] = Now;
-    else
-      At.Reads[1] = std::exchange(At.Reads[0], Now);
+  Now.IsAtomic = Where.isAtomic(C);
+  Now.Writes = writes(C, Lane);
+  Page &P = pageOf(Address, Now.Agent);
+  const uint32_t Word = Address % (1U << PageShift) / 4;
+  Cell &At = P.Words[Word];
+  check(C, Lane, At.Store, Now);
+  for (const Access &Load : At.Loads)
+    check(C, Lane, Load, Now);
+  if (Now.IsAtomic) {
+    AtomicCell &Atomics = P.Atomics[Word];
+    keep(Now.Writes ? Atomics.Writes : Atomics.Reads, Now, IsLocal);
     return;
   }
-  for (const Access &Read : At.Reads)
-    check(C, Lane, Read, Now, false);
-  At.Write = Now;
-  At.Reads = {};
+  if (const auto Atomics = P.Atomics.find(Word); Atomics != P.Atomics.end())
+    for (const Pair *Kept : {&Atomics->second.Writes, &Atomics->second.Reads})
+      for (const Access &Earlier : *Kept)
+        check(C, Lane, Earlier, Now);
+  if (!Now.Writes) {
+    keep(At.Loads, Now, IsLocal);
+    return;
+  }
+  // Whatever was before it has been reported, or happened before it.
+  At = {Now, {}};
+  P.Atomics.erase(Word);
 }
 
 void RaceCheck::synchronise(uint32_t Address, unsigned Agent) {
@@ -183,7 +221,7 @@ void RaceCheck::commit(const Commit &C) {
   }
   if (!C.Access)
     return;
-  const bool IsAtomic = C.Access->What == MemoryAccess::Atomic;
+  const bool IsAtomic = Where.isAtomic(C);
   for (uint32_t Left = withoutRepeats(C); Left; Left &= Left - 1) {
     const auto L = static_cast<unsigned>(std::countr_zero(Left));
     if (IsAtomic && Where.kindOf(C.Access->Addresses[L]) != Places::Local)

@@ -14,11 +14,13 @@ namespace vorion::isasim {
 /// them writes, they are not both atomic, and neither happens before the other.
 /// What orders them: a barrier, between work-items of one group; an atomic on
 /// one word by both groups in between, taken as release and acquire whatever
-/// its memory order; a device barrier; the end of the run. Work-items are lanes
-/// here: two of a group that is larger than a warp and share a lane are taken
-/// for one, so that a race between these is missed. Lanes that store the same
-/// value in one instruction do not race. Of each word the last write and two
-/// reads are kept, so that a race with an older access may be missed.
+/// its memory order; a device barrier; the end of the run. A compare-exchange
+/// that finds another value than it expects does not write. Work-items are
+/// lanes here: two of a group that is larger than a warp and share a lane are
+/// taken for one, so that a race between these is missed. Lanes that store the
+/// same value in one instruction do not race. Of each word the last store and
+/// two accesses of each other kind are kept, so that a race with an older one
+/// may be missed.
 class RaceCheck : public Check {
 public:
   RaceCheck(Reporter Out, const Places &Where) : Out(Out), Where(Where) {}
@@ -39,12 +41,22 @@ private:
     uint8_t Hart = 0;   ///< warp and lane
     uint8_t Bytes : 4 = 0;
     uint8_t IsAtomic : 1 = 0;
+    uint8_t Writes : 1 = 0;
   };
+  /// Two accesses of which an access of any work-item differs from one.
+  using Pair = std::array<Access, 2>;
   struct Cell {
-    Access Write;
-    std::array<Access, 2> Reads;
+    Access Store;
+    Pair Loads;
   };
-  using Page = std::array<Cell, 1024>; ///< a word each
+  /// What atomics did, few words of a program.
+  struct AtomicCell {
+    Pair Writes, Reads;
+  };
+  struct Page {
+    std::array<Cell, 1024> Words;
+    std::unordered_map<uint32_t, AtomicCell> Atomics; ///< by word
+  };
 
   struct AgentState {
     Time Now = 1;
@@ -55,12 +67,17 @@ private:
   };
 
   AgentState &ownOf(const Step &S) { return Agents[Where.agentOf(S)]; }
+  size_t warpOf(const Step &S) const {
+    return size_t{S.Core} * Where.shape().WarpsPerCore + S.Warp;
+  }
   bool isShared(uint32_t Address) const;
-  Cell &cellOf(uint32_t Address, unsigned Agent);
+  Page &pageOf(uint32_t Address, unsigned Agent);
   bool isOrdered(const Access &Earlier, const Access &Now, bool IsLocal) const;
   void check(const Commit &C, unsigned Lane, const Access &Earlier,
-             const Access &Now, bool EarlierWrites);
+             const Access &Now);
+  void keep(Pair &Kept, const Access &Now, bool IsLocal) const;
   void accessWord(const Commit &C, unsigned Lane, uint32_t Address);
+  bool writes(const Commit &C, unsigned Lane) const;
   void synchronise(uint32_t Address, unsigned Agent);
   void deviceBarrier(unsigned Agent);
   uint32_t withoutRepeats(const Commit &C) const;
@@ -68,6 +85,8 @@ private:
   Reporter Out;
   const Places &Where;
   std::vector<AgentState> Agents;
+  /// By warp: what the compare-exchange at hand expects, in each lane.
+  std::vector<std::array<std::array<uint32_t, 16>, 2>> Expected;
   uint32_t Groups = 1;
   std::unordered_map<uint64_t, std::unique_ptr<Page>> Pages;
   std::unordered_map<uint32_t, Clock> Released; ///< by word

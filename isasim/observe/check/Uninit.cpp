@@ -42,7 +42,7 @@ void UninitCheck::runBegins(const RunStart &R) {
   WarpsPerCore = Shape.WarpsPerCore;
   Warps.assign(size_t{Shape.cores()} * WarpsPerCore, Warp());
   for (Warp &W : Warps)
-    W.Good[0] = AllLanes;
+    W.Good[0] = Word::wholeIn(AllLanes);
   Locals = std::vector<ShadowBits>(Where.agents());
   Stacks.clear();
 }
@@ -69,14 +69,15 @@ uint32_t UninitCheck::goodSource(const Step &S, const Warp &W) const {
   for (const int R : {place(Info.Rs1, S.Insn.Rs1), place(Info.Rs2, S.Insn.Rs2),
                       place(Info.Rs3, S.Insn.Rs3)})
     if (R >= 0)
-      Good &= W.Good[static_cast<size_t>(R)];
+      Good &= W.Good[static_cast<size_t>(R)].whole();
   return Good;
 }
 
 /// Lanes in which a good operand alone decides the result.
 uint32_t UninitCheck::maskedSource(const Step &S, const Warp &W) const {
   const uint32_t *A = words(S, S.Insn.Rs1), *B = words(S, S.Insn.Rs2);
-  const uint32_t GoodA = W.Good[S.Insn.Rs1], GoodB = W.Good[S.Insn.Rs2];
+  const uint32_t GoodA = W.Good[S.Insn.Rs1].whole(),
+                 GoodB = W.Good[S.Insn.Rs2].whole();
   const auto Where0 = [&](uint32_t Good, const uint32_t *V, uint32_t Value) {
     return lanesWhere(Good & S.LaneMask,
                       [&](unsigned L) { return V[L] == Value; });
@@ -107,7 +108,7 @@ uint32_t UninitCheck::maskedSource(const Step &S, const Warp &W) const {
 
 void UninitCheck::use(const Step &S, Warp &W, unsigned Register, uint32_t Lanes,
                       const char *What) {
-  const uint32_t Bad = S.LaneMask & Lanes & ~W.Good[Register];
+  const uint32_t Bad = S.LaneMask & Lanes & ~W.Good[Register].whole();
   if (!Bad)
     return;
   Out.add(Culprit::of(S, static_cast<unsigned>(std::countr_zero(Bad))),
@@ -115,7 +116,7 @@ void UninitCheck::use(const Step &S, Warp &W, unsigned Register, uint32_t Lanes,
                       "0x{:04x})",
                       What, Bad));
   // Once is enough.
-  W.Good[Register] |= Bad;
+  W.Good[Register].set(Bad, Word::wholeIn(AllLanes));
 }
 
 void UninitCheck::checkUses(const Step &S, Warp &W) {
@@ -166,13 +167,60 @@ void UninitCheck::checkUses(const Step &S, Warp &W) {
     use(S, W, D.Rs2 + 1, AllLanes, "atomic with a value");
 }
 
-uint32_t UninitCheck::load(const Step &S) {
-  return lanesWhere(S.LaneMask, [&](unsigned L) {
-    const uint32_t Address = S.Access->Addresses[L];
+UninitCheck::Word UninitCheck::load(const Step &S) {
+  Word Result = Word::wholeIn(AllLanes);
+  const unsigned Bytes = S.Access->Bytes;
+  for (uint32_t Left = S.LaneMask; Left; Left &= Left - 1) {
+    const uint32_t Address =
+        S.Access->Addresses[static_cast<size_t>(std::countr_zero(Left))];
     ShadowBits *Shadow = shadowOf(Address, S);
-    return !Shadow || Address % S.Access->Bytes != 0 ||
-           Shadow->all(Address, S.Access->Bytes);
-  });
+    if (!Shadow || Address % Bytes != 0)
+      continue;
+    // What extends a byte or half comes from its last byte.
+    for (unsigned N = 0; N != Result.Bytes.size(); ++N)
+      if (!Shadow->all(Address + std::min(N, Bytes - 1), 1))
+        Result.Bytes[N] &= ~(Left & -Left);
+    // An atomic, which computes.
+    if (Bytes > Result.Bytes.size() && !Shadow->all(Address, Bytes))
+      Result.set(Left & -Left, Word());
+  }
+  return Result;
+}
+
+/// What the instruction at hand, which does not store, makes.
+UninitCheck::Word UninitCheck::resultOf(const Step &S, Warp &W) {
+  const Decoded &D = S.Insn;
+  switch (D.Opcode) {
+  case Op::VX_VOTE_ALL:
+  case Op::VX_VOTE_ANY:
+  case Op::VX_VOTE_UNI:
+  case Op::VX_VOTE_BALLOT:
+    // One lane's value shows in all.
+    return Word::wholeIn(S.LaneMask & ~W.Good[D.Rs1].whole() ? 0 : AllLanes);
+  case Op::VX_SHFL_UP:
+  case Op::VX_SHFL_DOWN:
+  case Op::VX_SHFL_BFLY:
+  case Op::VX_SHFL_IDX:
+    // Which lane's value comes is not followed: bad only if all are.
+    return Word::wholeIn(S.LaneMask & W.Good[D.Rs1].whole() ? AllLanes : 0);
+  case Op::RV_ADDI:
+    if (D.Imm == 0)
+      return W.Good[D.Rs1];
+    break;
+  case Op::RV_FMV_X_W:
+    return W.Good[FBase + D.Rs1];
+  case Op::RV_FMV_W_X:
+    return W.Good[D.Rs1];
+  case Op::RV_FSGNJ_S:
+    if (D.Rs1 == D.Rs2)
+      return W.Good[FBase + D.Rs1];
+    break;
+  default:
+    break;
+  }
+  if (S.Access)
+    return load(S);
+  return Word::wholeIn(goodSource(S, W) | maskedSource(S, W));
 }
 
 void UninitCheck::fetch(const Step &S) {
@@ -185,28 +233,8 @@ void UninitCheck::fetch(const Step &S) {
   if (Info.Rd == File::X && S.Insn.Rd == StackRegister)
     std::copy_n(words(S, StackRegister), W.StackPointer.size(),
                 W.StackPointer.begin());
-  switch (S.Insn.Opcode) {
-  case Op::VX_VOTE_ALL:
-  case Op::VX_VOTE_ANY:
-  case Op::VX_VOTE_UNI:
-  case Op::VX_VOTE_BALLOT:
-    // One lane's value shows in all.
-    W.Result = (S.LaneMask & ~W.Good[S.Insn.Rs1]) ? 0 : AllLanes;
-    return;
-  case Op::VX_SHFL_UP:
-  case Op::VX_SHFL_DOWN:
-  case Op::VX_SHFL_BFLY:
-  case Op::VX_SHFL_IDX:
-    // Which lane's value comes is not followed: bad only if all are.
-    W.Result = (S.LaneMask & W.Good[S.Insn.Rs1]) ? AllLanes : 0;
-    return;
-  default:
-    break;
-  }
-  if (S.Access)
-    W.Result = S.Access->What == MemoryAccess::Store ? AllLanes : load(S);
-  else
-    W.Result = goodSource(S, W) | maskedSource(S, W);
+  if (!S.Access || S.Access->What != MemoryAccess::Store)
+    W.Result = resultOf(S, W);
 }
 
 void UninitCheck::checkStore(const Step &S, Warp &W) {
@@ -214,15 +242,21 @@ void UninitCheck::checkStore(const Step &S, Warp &W) {
   const bool IsStore = S.Access->What == MemoryAccess::Store;
   const auto Register =
       static_cast<unsigned>(std::max(0, place(Info.Rs2, S.Insn.Rs2)));
-  const uint32_t Good = IsStore ? W.Good[Register] : AllLanes;
+  const Word Good = IsStore ? W.Good[Register] : Word::wholeIn(AllLanes);
+  const unsigned Bytes = S.Access->Bytes;
   for (uint32_t Left = S.LaneMask; Left; Left &= Left - 1) {
     const auto L = static_cast<unsigned>(std::countr_zero(Left));
     const uint32_t Address = S.Access->Addresses[L];
     ShadowBits *Shadow = shadowOf(Address, S);
     if (!Shadow)
       continue;
-    Shadow->set(Address, S.Access->Bytes, Good >> L & 1);
-    if ((Good >> L & 1) || Shadow != &Global || !Where.Held.find(Address, 1))
+    bool HasGood = false;
+    for (unsigned N = 0; N != Bytes; ++N) {
+      const bool IsGood = Good.Bytes[N % Good.Bytes.size()] >> L & 1;
+      Shadow->set(Address + N, 1, IsGood);
+      HasGood |= IsGood;
+    }
+    if (HasGood || Shadow != &Global || !Where.Held.find(Address, 1))
       continue;
     // The driver's own memory keeps values across barriers: a copy.
     if (Where.hasLaunch() && Where.isContext(Address))
@@ -231,7 +265,7 @@ void UninitCheck::checkStore(const Step &S, Warp &W) {
             fmt::format("store of a value from memory that nothing was "
                         "written to, at 0x{:08x}, {}",
                         Address, Where.describe(Address, S, L)));
-    Shadow->set(Address, S.Access->Bytes, true);
+    Shadow->set(Address, Bytes, true);
   }
 }
 
@@ -255,9 +289,9 @@ void UninitCheck::commit(const Commit &C) {
   if (Rd <= 0)
     return;
   const size_t Registers = Info.Pairs ? 2 : 1;
-  for (uint32_t &Good :
+  for (Word &Good :
        std::span(W.Good).subspan(static_cast<size_t>(Rd), Registers))
-    Good = (Good & ~C.LaneMask) | (W.Result & C.LaneMask);
+    Good.set(C.LaneMask, W.Result);
   if (Rd == StackRegister && !C.Result.empty())
     moveStack(C, W);
 }

@@ -8,12 +8,14 @@
 
 namespace vorion::isasim {
 
-/// Follows, for each byte of memory and each lane of each register, whether its
-/// value comes from something that was written. Copying and computing with what
-/// was not is no finding; deciding (a branch, split or vote), addressing,
-/// writing a CSR, an atomic, and storing to a buffer are. A word counts as a
-/// whole: one byte of it that was not written spoils results of the word,
-/// except where an and, or or conditional zero with a constant hides it.
+/// Follows, for each byte of memory and of each lane of each register, whether
+/// its value comes from something that was written. Copying and computing with
+/// what was not is no finding; deciding (a branch, split or vote), addressing,
+/// writing a CSR, an atomic, and storing to a buffer are. One byte of a word
+/// that was not written spoils results of the word, except where an and, or or
+/// conditional zero with a constant hides it. But a copy of the word is stored
+/// as it is, and is a finding only if none of its bytes was written: structures
+/// are copied with the bytes between their members.
 class UninitCheck : public Check {
 public:
   UninitCheck(Reporter Out, const Places &Where) : Out(Out), Where(Where) {}
@@ -32,11 +34,24 @@ public:
   void rasterCommand(const raster::CommandWork &W) override;
 
 private:
+  /// Of a word in each lane: a bit for each lane, by byte, that is known to be
+  /// good.
+  struct Word {
+    std::array<uint32_t, 4> Bytes{};
+
+    static Word wholeIn(uint32_t Lanes) {
+      return {{Lanes, Lanes, Lanes, Lanes}};
+    }
+    /// Lanes in which all bytes are good.
+    uint32_t whole() const { return Bytes[0] & Bytes[1] & Bytes[2] & Bytes[3]; }
+    void set(uint32_t Lanes, const Word &To) {
+      for (size_t N = 0; N != Bytes.size(); ++N)
+        Bytes[N] = (Bytes[N] & ~Lanes) | (To.Bytes[N] & Lanes);
+    }
+  };
   struct Warp {
-    /// A bit for each lane whose value is known to be good; x0 to x31, f0 to
-    /// f31.
-    std::array<uint32_t, 64> Good{};
-    uint32_t Result = 0; ///< what the present instruction's result will be
+    std::array<Word, 64> Good{}; ///< x0 to x31, f0 to f31
+    Word Result; ///< what the present instruction's result will be
     std::array<uint32_t, 16> StackPointer{}; ///< before it
   };
 
@@ -46,7 +61,8 @@ private:
            const char *What);
   void checkUses(const Step &S, Warp &W);
   void checkStore(const Step &S, Warp &W);
-  uint32_t load(const Step &S);
+  Word load(const Step &S);
+  Word resultOf(const Step &S, Warp &W);
   ShadowBits *shadowOf(uint32_t Address, const Step &S);
   void moveStack(const Commit &C, Warp &W);
 

@@ -106,6 +106,11 @@ public:
   /// symbols, most of which are sizes, name the one address that they are where
   /// no other symbol covers it.
   std::string symbolize(uint32_t Address) const;
+  /// Whether the load or store at \p Pc is an atomic access (section
+  /// vorion_atomics, docs/abi.md).
+  bool isAtomicPlace(uint32_t Pc) const {
+    return std::ranges::binary_search(AtomicPlaces, Pc);
+  }
   /// The initial bytes at [Address, Address + Bytes) if they lie in one
   /// segment's file contents, else an empty span.
   std::span<const std::byte> bytesAt(uint32_t Address, uint32_t Bytes) const;
@@ -120,6 +125,7 @@ private:
   std::vector<Segment> Segments; ///< by address
   std::vector<Symbol> Symbols;   ///< by address
   std::vector<Kernel> Kernels;
+  std::vector<uint32_t> AtomicPlaces; ///< sorted
 
   friend class ImageParser;
 };
