@@ -14,6 +14,16 @@ namespace {
 constexpr uint32_t PageShift = 12;
 constexpr uint32_t DeviceBarrier = 1U << 31; ///< in vx_bar's rs1 (Simt.td)
 
+/// What \p Lane stores, or 0.
+uint32_t storedBy(const Commit &C, unsigned Lane) {
+  if (C.Access->What != MemoryAccess::Store)
+    return 0;
+  const InsnInfo &Info = C.Insn.info();
+  const unsigned Register = (Info.Rs2 == File::F ? FBase : XBase) + C.Insn.Rs2;
+  const uint32_t Word = C.State.lanes(Register * sizeof(LaneWords))[Lane];
+  return C.Access->Bytes == 4 ? Word : Word & ((1U << C.Access->Bytes * 8) - 1);
+}
+
 bool isCompareExchange(Op Opcode) {
   return Opcode == Op::RV_AMOCAS_W || Opcode == Op::RV_AMOCAS_D;
 }
@@ -134,22 +144,31 @@ bool RaceCheck::writes(const Commit &C, unsigned Lane) const {
 }
 
 /// The part of a lane's access that lies in the word of \p Address.
-void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
+RaceCheck::Access RaceCheck::accessOf(const Commit &C, unsigned Lane,
+                                      uint32_t Address) {
   const AgentState &Own = ownOf(C);
+  Access A;
+  A.Group = Own.Group;
+  A.When = Own.Now;
+  A.Pc = C.Pc;
+  A.Agent = static_cast<uint16_t>(Where.agentOf(C));
+  A.Hart = static_cast<uint8_t>(C.Warp * Where.shape().LanesPerWarp + Lane);
+  A.Bytes = (((1U << C.Access->Bytes) - 1) << Address % 4) & 15;
+  A.IsAtomic = Where.isAtomic(C);
+  A.Writes = writes(C, Lane);
+  return A;
+}
+
+void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
+  const Access Now = accessOf(C, Lane, Address);
   const bool IsLocal = Where.kindOf(Address) == Places::Local;
-  Access Now;
-  Now.Group = Own.Group;
-  Now.When = Own.Now;
-  Now.Pc = C.Pc;
-  Now.Agent = static_cast<uint16_t>(Where.agentOf(C));
-  Now.Hart = static_cast<uint8_t>(C.Warp * Where.shape().LanesPerWarp + Lane);
-  Now.Bytes = (((1U << C.Access->Bytes) - 1) << Address % 4) & 15;
-  Now.IsAtomic = Where.isAtomic(C);
-  Now.Writes = writes(C, Lane);
+  const bool IsStore = Now.Writes && !Now.IsAtomic;
+  const uint32_t Value = storedBy(C, Lane);
   Page &P = pageOf(Address, Now.Agent);
   const uint32_t Word = Address % (1U << PageShift) / 4;
   Cell &At = P.Words[Word];
-  check(C, Lane, At.Store, Now);
+  if (!IsStore || At.Store.Bytes != Now.Bytes || At.Stored != Value)
+    check(C, Lane, At.Store, Now);
   for (const Access &Load : At.Loads)
     check(C, Lane, Load, Now);
   if (Now.IsAtomic) {
@@ -161,12 +180,12 @@ void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
     for (const Pair *Kept : {&Atomics->second.Writes, &Atomics->second.Reads})
       for (const Access &Earlier : *Kept)
         check(C, Lane, Earlier, Now);
-  if (!Now.Writes) {
+  if (!IsStore) {
     keep(At.Loads, Now, IsLocal);
     return;
   }
   // Whatever was before it has been reported, or happened before it.
-  At = {Now, {}};
+  At = {Now, Value, {}};
   P.Atomics.erase(Word);
 }
 
@@ -186,29 +205,6 @@ void RaceCheck::deviceBarrier(unsigned Agent) {
     Own[N] = std::max(Own[N], Agents[N].Arrived);
 }
 
-/// The active lanes without those that store what a lower one stores to the
-/// same place.
-uint32_t RaceCheck::withoutRepeats(const Commit &C) const {
-  if (C.Access->What != MemoryAccess::Store)
-    return C.LaneMask;
-  const InsnInfo &Info = C.Insn.info();
-  const unsigned Register = (Info.Rs2 == File::F ? FBase : XBase) + C.Insn.Rs2;
-  const uint32_t *Values = C.State.lanes(Register * sizeof(LaneWords));
-  uint32_t Kept = 0;
-  for (uint32_t Left = C.LaneMask; Left; Left &= Left - 1) {
-    const auto L = static_cast<unsigned>(std::countr_zero(Left));
-    bool Repeats = false;
-    for (uint32_t Lower = Kept; Lower && !Repeats; Lower &= Lower - 1) {
-      const auto M = static_cast<unsigned>(std::countr_zero(Lower));
-      Repeats = C.Access->Addresses[M] == C.Access->Addresses[L] &&
-                Values[M] == Values[L];
-    }
-    if (!Repeats)
-      Kept |= Left & -Left;
-  }
-  return Kept;
-}
-
 void RaceCheck::commit(const Commit &C) {
   if (C.Insn.Opcode == Op::VX_BAR) {
     const unsigned Last = static_cast<unsigned>(std::bit_width(C.LaneMask)) - 1;
@@ -222,7 +218,7 @@ void RaceCheck::commit(const Commit &C) {
   if (!C.Access)
     return;
   const bool IsAtomic = Where.isAtomic(C);
-  for (uint32_t Left = withoutRepeats(C); Left; Left &= Left - 1) {
+  for (uint32_t Left = C.LaneMask; Left; Left &= Left - 1) {
     const auto L = static_cast<unsigned>(std::countr_zero(Left));
     if (IsAtomic && Where.kindOf(C.Access->Addresses[L]) != Places::Local)
       synchronise(C.Access->Addresses[L], Where.agentOf(C));

@@ -17,10 +17,9 @@ namespace vorion::isasim {
 /// its memory order; a device barrier; the end of the run. A compare-exchange
 /// that finds another value than it expects does not write. Work-items are
 /// lanes here: two of a group that is larger than a warp and share a lane are
-/// taken for one, so that a race between these is missed. Lanes that store the
-/// same value in one instruction do not race. Of each word the last store and
-/// two accesses of each other kind are kept, so that a race with an older one
-/// may be missed.
+/// taken for one, so that a race between these is missed. Stores of the same
+/// value do not race. Of each word the last store and two accesses of each
+/// other kind are kept, so that a race with an older one may be missed.
 class RaceCheck : public Check {
 public:
   RaceCheck(Reporter Out, const Places &Where) : Out(Out), Where(Where) {}
@@ -47,6 +46,7 @@ private:
   using Pair = std::array<Access, 2>;
   struct Cell {
     Access Store;
+    uint32_t Stored = 0; ///< the value
     Pair Loads;
   };
   /// What atomics did, few words of a program.
@@ -76,11 +76,11 @@ private:
   void check(const Commit &C, unsigned Lane, const Access &Earlier,
              const Access &Now);
   void keep(Pair &Kept, const Access &Now, bool IsLocal) const;
+  Access accessOf(const Commit &C, unsigned Lane, uint32_t Address);
   void accessWord(const Commit &C, unsigned Lane, uint32_t Address);
   bool writes(const Commit &C, unsigned Lane) const;
   void synchronise(uint32_t Address, unsigned Agent);
   void deviceBarrier(unsigned Agent);
-  uint32_t withoutRepeats(const Commit &C) const;
 
   Reporter Out;
   const Places &Where;
