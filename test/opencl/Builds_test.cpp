@@ -182,6 +182,32 @@ TEST_F(Builds, AMacroOfTheProgramDoesNotReachTheHeaders) {
   EXPECT_EQ(Device.download<cl_uint>(Out, 2), (std::vector<cl_uint>{321, 11}));
 }
 
+// Programs write options as for a shell.
+TEST_F(Builds, ABackslashHidesSpacesAndQuotesOfOptions) {
+  const std::string Source =
+      "#define TEXT_OF(x) #x\n"
+      "#define TEXT(x) TEXT_OF(x)\n"
+      "kernel void f(global char *o) {\n"
+      "  constant char *Texts[] = {TEXT(A), TEXT(B), C, D};\n"
+      "  for (int t = 0, n = 0; t < 4; t++)\n"
+      "    for (int i = 0;; i++) {\n"
+      "      o[n++] = Texts[t][i] ? Texts[t][i] : '|';\n"
+      "      if (!Texts[t][i]) break;\n"
+      "    }\n"
+      "}\n";
+  const cl::Program P = program(Source.c_str());
+  ASSERT_EQ(build(P, "-D A=a\\ b -DB=\"c d\" -DC=\\\"e\\ f\\\" "
+                     "-D \"D=\\\"g\\\\n h\\\"\""),
+            CL_SUCCESS)
+      << log(P);
+  cl::Kernel Kernel(P, "f");
+  const cl::Buffer Out = Device.upload(std::vector<char>(17));
+  Kernel.setArg(0, Out);
+  Device.run(Kernel, 1, 1);
+  const std::vector<char> Text = Device.download<char>(Out, 17);
+  EXPECT_EQ(std::string(Text.begin(), Text.end()), "a b|c d|e f|g\n h|");
+}
+
 // What is kept of the headers is kept for each set of options that changes
 // them.
 TEST_F(Builds, OptionsThatTheHeadersSeeAreSeen) {
