@@ -33,6 +33,7 @@ bool isCompareExchange(Op Opcode) {
 void RaceCheck::runBegins(const RunStart &R) {
   const unsigned Count = Where.agents();
   Pages.clear();
+  Recent = nullptr;
   Released.clear();
   Agents.assign(Count, AgentState());
   Expected.assign(size_t{R.Shape.cores()} * R.Shape.WarpsPerCore, {});
@@ -81,10 +82,14 @@ RaceCheck::Page &RaceCheck::pageOf(uint32_t Address, unsigned Agent) {
   const bool IsLocal = Where.kindOf(Address) == Places::Local;
   const uint64_t Number =
       Address >> PageShift | uint64_t{IsLocal ? Agent + 1 : 0} << 32;
+  if (Recent && RecentNumber == Number)
+    return *Recent;
   std::unique_ptr<Page> &P = Pages[Number];
   if (!P)
     P = std::make_unique<Page>();
-  return *P;
+  RecentNumber = Number;
+  Recent = P.get();
+  return *Recent;
 }
 
 bool RaceCheck::isOrdered(const Access &Earlier, const Access &Now,
@@ -123,12 +128,12 @@ void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
 /// Adds \p Now to the accesses of its kind. What happened before it goes: who
 /// races with that also races with \p Now.
 void RaceCheck::keep(Pair &Kept, const Access &Now, bool IsLocal) const {
-  for (Access &Earlier : Kept)
-    if (Earlier.Group != 0 && isOrdered(Earlier, Now, IsLocal))
-      Earlier = {};
-  if (Kept[0].Group == 0 || (Kept[1].Group != 0 && Kept[0].Group == Now.Group))
-    std::swap(Kept[0], Kept[1]);
-  Kept[1] = std::exchange(Kept[0], Now);
+  const auto IsOver = [&](const Access &Earlier) {
+    return Earlier.Group == 0 || isOrdered(Earlier, Now, IsLocal);
+  };
+  if (!IsOver(Kept[0]) && (IsOver(Kept[1]) || Kept[0].Group != Now.Group))
+    Kept[1] = Kept[0];
+  Kept[0] = Now;
 }
 
 /// Whether the access of \p Lane writes: an atomic load does not, nor does a
@@ -143,27 +148,24 @@ bool RaceCheck::writes(const Commit &C, unsigned Lane) const {
          (C.HighResult.empty() || C.HighResult[Lane] == Wanted[1][Lane]);
 }
 
-/// The part of a lane's access that lies in the word of \p Address.
-RaceCheck::Access RaceCheck::accessOf(const Commit &C, unsigned Lane,
-                                      uint32_t Address) {
+/// What is the same for all lanes of \p C.
+RaceCheck::Access RaceCheck::accessOf(const Commit &C) {
   const AgentState &Own = ownOf(C);
   Access A;
   A.Group = Own.Group;
   A.When = Own.Now;
   A.Pc = C.Pc;
   A.Agent = static_cast<uint16_t>(Where.agentOf(C));
-  A.Hart = static_cast<uint8_t>(C.Warp * Where.shape().LanesPerWarp + Lane);
-  A.Bytes = (((1U << C.Access->Bytes) - 1) << Address % 4) & 15;
   A.IsAtomic = Where.isAtomic(C);
-  A.Writes = writes(C, Lane);
   return A;
 }
 
-void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
-  const Access Now = accessOf(C, Lane, Address);
+/// The part of the access \p Now that lies in the word of \p Address.
+void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address,
+                           Access Now, uint32_t Value) {
+  Now.Bytes = (((1U << C.Access->Bytes) - 1) << Address % 4) & 15;
   const bool IsLocal = Where.kindOf(Address) == Places::Local;
   const bool IsStore = Now.Writes && !Now.IsAtomic;
-  const uint32_t Value = storedBy(C, Lane);
   Page &P = pageOf(Address, Now.Agent);
   const uint32_t Word = Address % (1U << PageShift) / 4;
   Cell &At = P.Words[Word];
@@ -176,7 +178,9 @@ void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
     keep(Now.Writes ? Atomics.Writes : Atomics.Reads, Now, IsLocal);
     return;
   }
-  if (const auto Atomics = P.Atomics.find(Word); Atomics != P.Atomics.end())
+  const auto Atomics =
+      P.Atomics.empty() ? P.Atomics.end() : P.Atomics.find(Word);
+  if (Atomics != P.Atomics.end())
     for (const Pair *Kept : {&Atomics->second.Writes, &Atomics->second.Reads})
       for (const Access &Earlier : *Kept)
         check(C, Lane, Earlier, Now);
@@ -186,7 +190,8 @@ void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
   }
   // Whatever was before it has been reported, or happened before it.
   At = {Now, Value, {}};
-  P.Atomics.erase(Word);
+  if (Atomics != P.Atomics.end())
+    P.Atomics.erase(Atomics);
 }
 
 void RaceCheck::synchronise(uint32_t Address, unsigned Agent) {
@@ -217,16 +222,20 @@ void RaceCheck::commit(const Commit &C) {
   }
   if (!C.Access)
     return;
-  const bool IsAtomic = Where.isAtomic(C);
+  Access Now = accessOf(C);
   for (uint32_t Left = C.LaneMask; Left; Left &= Left - 1) {
     const auto L = static_cast<unsigned>(std::countr_zero(Left));
-    if (IsAtomic && Where.kindOf(C.Access->Addresses[L]) != Places::Local)
-      synchronise(C.Access->Addresses[L], Where.agentOf(C));
-    if (isShared(C.Access->Addresses[L]))
-      for (uint32_t N = 0; N < C.Access->Bytes; N += 4)
-        accessWord(C, L, C.Access->Addresses[L] + N);
+    const uint32_t Address = C.Access->Addresses[L];
+    if (Now.IsAtomic && Where.kindOf(Address) != Places::Local)
+      synchronise(Address, Now.Agent);
+    if (!isShared(Address))
+      continue;
+    Now.Hart = static_cast<uint8_t>(C.Warp * Where.shape().LanesPerWarp + L);
+    Now.Writes = writes(C, L);
+    for (uint32_t N = 0; N < C.Access->Bytes; N += 4)
+      accessWord(C, L, Address + N, Now, storedBy(C, L));
   }
-  if (IsAtomic)
+  if (Now.IsAtomic)
     ++ownOf(C).Now;
 }
 

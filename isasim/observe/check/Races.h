@@ -76,8 +76,9 @@ private:
   void check(const Commit &C, unsigned Lane, const Access &Earlier,
              const Access &Now);
   void keep(Pair &Kept, const Access &Now, bool IsLocal) const;
-  Access accessOf(const Commit &C, unsigned Lane, uint32_t Address);
-  void accessWord(const Commit &C, unsigned Lane, uint32_t Address);
+  Access accessOf(const Commit &C);
+  void accessWord(const Commit &C, unsigned Lane, uint32_t Address, Access Now,
+                  uint32_t Value);
   bool writes(const Commit &C, unsigned Lane) const;
   void synchronise(uint32_t Address, unsigned Agent);
   void deviceBarrier(unsigned Agent);
@@ -89,6 +90,8 @@ private:
   std::vector<std::array<std::array<uint32_t, 16>, 2>> Expected;
   uint32_t Groups = 1;
   std::unordered_map<uint64_t, std::unique_ptr<Page>> Pages;
+  uint64_t RecentNumber = 0;
+  Page *Recent = nullptr;                       ///< the page of that number
   std::unordered_map<uint32_t, Clock> Released; ///< by word
 };
 

@@ -174,15 +174,15 @@ UninitCheck::Word UninitCheck::load(const Step &S) {
     const uint32_t Address =
         S.Access->Addresses[static_cast<size_t>(std::countr_zero(Left))];
     ShadowBits *Shadow = shadowOf(Address, S);
-    if (!Shadow || Address % Bytes != 0)
+    if (!Shadow || Address % Bytes != 0 || Shadow->all(Address, Bytes))
       continue;
-    // What extends a byte or half comes from its last byte.
+    const uint32_t Lane = Left & -Left;
+    // What extends a byte or half comes from its last byte. An atomic of more
+    // than a word computes.
     for (unsigned N = 0; N != Result.Bytes.size(); ++N)
-      if (!Shadow->all(Address + std::min(N, Bytes - 1), 1))
-        Result.Bytes[N] &= ~(Left & -Left);
-    // An atomic, which computes.
-    if (Bytes > Result.Bytes.size() && !Shadow->all(Address, Bytes))
-      Result.set(Left & -Left, Word());
+      if (Bytes > Result.Bytes.size() ||
+          !Shadow->all(Address + std::min(N, Bytes - 1), 1))
+        Result.Bytes[N] &= ~Lane;
   }
   return Result;
 }
@@ -250,9 +250,13 @@ void UninitCheck::checkStore(const Step &S, Warp &W) {
     ShadowBits *Shadow = shadowOf(Address, S);
     if (!Shadow)
       continue;
+    if (Good.whole() >> L & 1) {
+      Shadow->set(Address, Bytes, true);
+      continue;
+    }
     bool HasGood = false;
     for (unsigned N = 0; N != Bytes; ++N) {
-      const bool IsGood = Good.Bytes[N % Good.Bytes.size()] >> L & 1;
+      const bool IsGood = Good.Bytes[N] >> L & 1;
       Shadow->set(Address + N, 1, IsGood);
       HasGood |= IsGood;
     }
