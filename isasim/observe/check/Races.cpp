@@ -125,8 +125,9 @@ void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
           Earlier.Pc);
 }
 
-/// Adds \p Now to the accesses of its kind. What happened before it goes: who
-/// races with that also races with \p Now.
+/// Adds \p Now to the accesses of its kind. It takes the place of one that
+/// happened before it, because who races with that also races with \p Now.
+/// Of two others one stays, of another group if there is one.
 void RaceCheck::keep(Pair &Kept, const Access &Now, bool IsLocal) const {
   const auto IsOver = [&](const Access &Earlier) {
     return Earlier.Group == 0 || isOrdered(Earlier, Now, IsLocal);
