@@ -51,6 +51,16 @@ protected:
     return clCompileProgram(Program(), 0, nullptr, Options, 0, nullptr, nullptr,
                             nullptr, nullptr);
   }
+  /// What one work-item of kernel `f` leaves in its only argument, zeros at
+  /// first.
+  template <typename T>
+  std::vector<T> resultOf(const cl::Program &Program, size_t Count) const {
+    cl::Kernel Kernel(Program, "f");
+    const cl::Buffer Out = Device.upload(std::vector<T>(Count));
+    Kernel.setArg(0, Out);
+    Device.run(Kernel, 1, 1);
+    return Device.download<T>(Out, Count);
+  }
   /// The program of a link, perhaps none.
   cl::Program link(const std::vector<cl_program> &Inputs, const char *Options,
                    cl_int &Status) const {
@@ -175,11 +185,7 @@ TEST_F(Builds, AMacroOfTheProgramDoesNotReachTheHeaders) {
   ASSERT_EQ(build(P, "-Doffset=1 -D data=20 -D\"p=300\" -Dpopcount=clz"),
             CL_SUCCESS)
       << log(P);
-  cl::Kernel Kernel(P, "f");
-  const cl::Buffer Out = Device.upload(std::vector<cl_uint>(2));
-  Kernel.setArg(0, Out);
-  Device.run(Kernel, 1, 1);
-  EXPECT_EQ(Device.download<cl_uint>(Out, 2), (std::vector<cl_uint>{321, 11}));
+  EXPECT_EQ(resultOf<cl_uint>(P, 2), (std::vector<cl_uint>{321, 11}));
 }
 
 // Programs write options as for a shell.
@@ -200,11 +206,7 @@ TEST_F(Builds, ABackslashHidesSpacesAndQuotesOfOptions) {
                      "-D \"D=\\\"g\\\\n h\\\"\""),
             CL_SUCCESS)
       << log(P);
-  cl::Kernel Kernel(P, "f");
-  const cl::Buffer Out = Device.upload(std::vector<char>(17));
-  Kernel.setArg(0, Out);
-  Device.run(Kernel, 1, 1);
-  const std::vector<char> Text = Device.download<char>(Out, 17);
+  const std::vector<char> Text = resultOf<char>(P, 17);
   EXPECT_EQ(std::string(Text.begin(), Text.end()), "a b|c d|e f|g\n h|");
 }
 
@@ -232,12 +234,7 @@ TEST_F(Builds, OptionsThatTheHeadersSeeAreSeen) {
     for (const bool Again : {false, true}) {
       const cl::Program P = program(Source.c_str());
       ASSERT_EQ(build(P, Options), CL_SUCCESS) << Options << log(P);
-      cl::Kernel Kernel(P, "f");
-      const cl::Buffer Out = Device.upload(std::vector<cl_int>(1));
-      Kernel.setArg(0, Out);
-      Device.run(Kernel, 1, 1);
-      EXPECT_EQ(Device.download<cl_int>(Out, 1)[0], Expected)
-          << Options << Again;
+      EXPECT_EQ(resultOf<cl_int>(P, 1)[0], Expected) << Options << Again;
     }
 }
 

@@ -22,24 +22,6 @@ from module import SHARED_START, SHARED_WORDS
 MAX_WARP_INSTRUCTIONS = 4_000_000_000
 
 
-def is_as_written(linux, source, base, got):
-    """Whether the plain program has the device's results where nothing is optimised: csmith takes addresses of unions' members,
-    and an optimiser may take accesses by other types for others' (-fstrict-aliasing)."""
-    try:
-        return got == linux.run(source, base, level="-O0")
-    except Endless:
-        return False
-
-
-def takes_long(linux, source, base):
-    """Whether the plain program as it is written does not end in time."""
-    try:
-        linux.run(source, base, level="-O0")
-    except Endless:
-        return True
-    return False
-
-
 def check(linux, seed, folder):
     configuration = CONFIGURATIONS[seed * 7 % len(CONFIGURATIONS)]
     base = os.path.join(folder, "program")
@@ -55,13 +37,15 @@ def check(linux, seed, folder):
         program = device.compile(source, base, configuration)
         start = bytes(4 * LANES) + SHARED_START.to_bytes(4, "little") * SHARED_WORDS
         got = device.run(program, base, 1, LANES, ["u32:0", f"u32:{LANES}", "local:256"], start, MAX_WARP_INSTRUCTIONS)
-        if got != expected and is_as_written(linux, source, base, got):
+        # csmith takes addresses of unions' members, and an optimiser may take accesses by other types for others'
+        # (-fstrict-aliasing).
+        if got != expected and got == linux.as_written(source, base):
             return {"seed": seed, "counts": {"levels differ": 1}, "bad": []}
         bad = [] if got == expected else [f"{configuration}: wrong: lanes " + " ".join(
             str(lane) for lane in range(LANES) if got[4 * lane:4 * lane + 4] != expected[4 * lane:4 * lane + 4])]
     except (Refused, Wrong) as problem:
         # A loop of 2^32 rounds ends at once where the optimiser of one compiler knows its result, and only there.
-        if "limit reached" in str(problem) and takes_long(linux, source, base):
+        if "limit reached" in str(problem) and linux.as_written(source, base) is None:
             return {"seed": seed, "counts": {"endless as a plain program": 1}, "bad": []}
         bad = [f"{configuration}: {type(problem).__name__.lower()}: {problem}"]
     if bad:

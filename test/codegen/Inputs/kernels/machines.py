@@ -102,6 +102,13 @@ class Linux:
             raise RuntimeError(f"{source}: under qemu-riscv32: {failure(ran)}")
         return ran.stdout
 
+    def as_written(self, source, base):
+        """The program's standard output where nothing is optimised; None if it does not end in time."""
+        try:
+            return self.run(source, base, level="-O0")
+        except Endless:
+            return None
+
     @staticmethod
     def execute(program, seconds=LINUX_SECONDS):
         # Not the time by the clock, which says little on a busy machine.
