@@ -22,14 +22,18 @@ readJobs() {
 
 elapsed() { printf '%d:%02d' $(((SECONDS - Started) / 60)) $(((SECONDS - Started) % 60)); }
 
+# say MESSAGE: a line from the command of a step, which its log would hide.
+say() { printf '%s[%s] %s\n' "$([ ! -t 8 ] || printf '\r\033[K')" "$(elapsed)" "$1" >&8; }
+
 # step TITLE LOG COMMAND...: runs it with its output in build/logs/LOG.log, says what
 # is going on (on a terminal with the last line of output), and on failure shows the log's end.
+# What the command says by itself goes through descriptor 8.
 step() {
   local Title=$1 Log="$Logs/$2.log" Pid Status=0 Last
   shift 2
   mkdir -p "$Logs"
   printf '[%s] %s\n' "$(elapsed)" "$Title"
-  "$@" >"$Log" 2>&1 </dev/null &
+  "$@" 8>&1 >"$Log" 2>&1 </dev/null &
   Pid=$!
   while kill -0 "$Pid" 2>/dev/null; do
     if [ -t 1 ]; then

@@ -29,12 +29,29 @@ missingPackages() {
   done
 }
 
-installPackages() {
-  local Sudo=
+# aptGet ARGUMENTS...: apt-get, once no other process holds a lock that it needs: a fresh Debian updates itself. apt's
+# DPkg::Lock::Timeout waits for dpkg's locks alone, and not for that of apt's lists.
+aptGet() {
+  local Errors="$Logs/packages-errors.log" Sudo='' Status Holder Said=''
   [ "$(id -u)" -eq 0 ] || Sudo=sudo # its password was asked for below
-  $Sudo apt-get update
+  while true; do
+    Status=0
+    $Sudo env LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive apt-get "$@" 2>"$Errors" || Status=$?
+    cat "$Errors" >&2
+    Holder=$(sed -nE 's/^E: Could not get lock (.*)\. It is held by (process .*)/\2 holds \1/p' "$Errors" | head -n 1)
+    if [ "$Status" -eq 0 ] || [ -z "$Holder" ]; then
+      return "$Status"
+    fi
+    [ "$Holder" = "$Said" ] || say "waiting for another package manager: $Holder"
+    Said=$Holder
+    sleep 1
+  done
+}
+
+installPackages() {
+  aptGet update
   # shellcheck disable=SC2046 # one word a package is what is wanted
-  $Sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(missingPackages)
+  aptGet install -y --no-install-recommends $(missingPackages)
 }
 
 [ -r /etc/debian_version ] || fail "this is not a Debian machine; scripts/packages.txt lists what to install"
