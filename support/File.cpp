@@ -35,14 +35,39 @@ std::optional<std::size_t> readSome(int From, std::byte *To, std::size_t Size) {
   }
 }
 
-} // namespace
+/// What is no regular file.
+const char *kindOf(mode_t Mode) {
+  return S_ISDIR(Mode) ? "a folder" : S_ISFIFO(Mode) ? "a pipe" : "a device";
+}
 
-Expected<std::vector<std::byte>> readFile(const std::string &Path,
-                                          uint64_t Most) {
-  const Descriptor File(::open(Path.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat Info{};
-  if (File.number() < 0 || ::fstat(File.number(), &Info) != 0)
+/// A file that is open to be read, and what fstat() says of it.
+struct OpenFile {
+  Descriptor File;
+  struct stat Info;
+};
+
+Expected<OpenFile> openFile(const std::string &Path, bool OnlyRegular) {
+  if (auto Named = checkName(Path); !Named)
+    return Named.error();
+  // Without O_NONBLOCK, opening a pipe waits for its writer.
+  const int Wait = OnlyRegular ? O_NONBLOCK : 0;
+  OpenFile O{
+      Descriptor(::open(Path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | Wait)),
+      {}};
+  if (O.File.number() < 0 || ::fstat(O.File.number(), &O.Info) != 0)
     return cannot(Path, "open", errno);
+  if (OnlyRegular && !S_ISREG(O.Info.st_mode))
+    return Error{Path, fmt::format("{}, expected a regular file",
+                                   kindOf(O.Info.st_mode))};
+  return O;
+}
+
+Expected<std::vector<std::byte>> readAll(const std::string &Path,
+                                         const Expected<OpenFile> &Opened,
+                                         uint64_t Most) {
+  if (!Opened)
+    return Opened.error();
+  const auto &[File, Info] = *Opened;
   // Files of /proc call themselves regular and empty.
   const bool SaysSize = S_ISREG(Info.st_mode) && Info.st_size > 0;
   if (SaysSize) {
@@ -70,6 +95,44 @@ Expected<std::vector<std::byte>> readFile(const std::string &Path,
     Bytes.insert(Bytes.end(), Chunk.begin(),
                  Chunk.begin() + static_cast<std::ptrdiff_t>(*Got));
   }
+}
+
+} // namespace
+
+Expected<Success> checkName(const std::string &Path) {
+  if (Path.find('\0') == std::string::npos)
+    return Success{};
+  return Error{Path, "a NUL in the name, expected a name without one"};
+}
+
+Expected<std::vector<std::byte>> readFile(const std::string &Path,
+                                          uint64_t Most) {
+  return readAll(Path, openFile(Path, /*OnlyRegular=*/false), Most);
+}
+
+Expected<std::vector<std::byte>> readRegularFile(const std::string &Path,
+                                                 uint64_t Most) {
+  return readAll(Path, openFile(Path, /*OnlyRegular=*/true), Most);
+}
+
+Expected<std::vector<std::byte>> readStart(const std::string &Path,
+                                           std::size_t Size) {
+  const auto Opened = openFile(Path, /*OnlyRegular=*/true);
+  if (!Opened)
+    return Opened.error();
+  std::vector<std::byte> Start(Size);
+  std::size_t Have = 0;
+  while (Have < Size) {
+    const auto Got =
+        readSome(Opened->File.number(), Start.data() + Have, Size - Have);
+    if (!Got)
+      return cannot(Path, "read", errno);
+    if (*Got == 0)
+      break;
+    Have += *Got;
+  }
+  Start.resize(Have);
+  return Start;
 }
 
 } // namespace vorion

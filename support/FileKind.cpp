@@ -1,5 +1,6 @@
 #include "vorion/support/FileKind.h"
 
+#include "vorion/support/File.h"
 #include "vorion/support/Letters.h"
 
 #include <algorithm>
@@ -8,9 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <elf.h>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <optional>
 
 namespace vorion {
@@ -437,17 +436,10 @@ Error otherKind(const std::string &Where, std::span<const std::byte> File,
 
 Error otherKindAt(const std::string &Path, std::string_view Wanted,
                   std::string_view Otherwise) {
-  std::error_code Ignored;
-  std::string Start(Looked, '\0');
-  std::ifstream In;
   // What a pipe has would be lost.
-  if (std::filesystem::is_regular_file(Path, Ignored))
-    In.open(Path, std::ios::binary);
-  if (!In.is_open())
-    return {Path, fmt::format("{}, expected {}", Otherwise, Wanted)};
-  In.read(Start.data(), static_cast<std::streamsize>(Start.size()));
-  Start.resize(static_cast<std::size_t>(In.gcount()));
-  return otherKind(Path, std::as_bytes(std::span(Start)), Wanted, Otherwise);
+  const auto Start = readStart(Path, Looked);
+  return Start ? otherKind(Path, *Start, Wanted, Otherwise)
+               : Error{Path, fmt::format("{}, expected {}", Otherwise, Wanted)};
 }
 
 } // namespace vorion

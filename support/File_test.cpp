@@ -55,6 +55,45 @@ TEST_F(FileTest, AnEndlessDeviceIsReadToItsBound) {
   EXPECT_TRUE(Empty->empty());
 }
 
+TEST_F(FileTest, WhatAFileNamesIsRegular) {
+  ASSERT_TRUE(writeFileAtomically(path("f"), "abc"));
+  const auto Bytes = readRegularFile(path("f"));
+  ASSERT_TRUE(Bytes);
+  EXPECT_EQ(Bytes->size(), 3U);
+  const auto Start = readStart(path("f"), 2);
+  ASSERT_TRUE(Start);
+  EXPECT_EQ(Start->size(), 2U);
+  ASSERT_EQ(readStart(path("f"), 9)->size(), 3U);
+  EXPECT_FALSE(readRegularFile(path("f"), 2));
+
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0); // with no writer
+  std::filesystem::create_symlink("/dev/zero", path("device"));
+  std::filesystem::create_symlink("nothing", path("dangling"));
+  for (const auto &[Name, What] :
+       {std::pair("pipe", "a pipe, expected a regular file"),
+        std::pair("device", "a device, expected a regular file"),
+        std::pair("", "a folder, expected a regular file"),
+        std::pair("dangling", "cannot open: No such file or directory, "
+                              "expected a readable file")}) {
+    const auto Read = readRegularFile(path(Name));
+    ASSERT_FALSE(Read) << Name;
+    EXPECT_EQ(Read.error().What, What);
+    EXPECT_FALSE(readStart(path(Name), 2)) << Name;
+  }
+}
+
+TEST_F(FileTest, ANameWithANulIsNotThatOfAnotherFile) {
+  ASSERT_TRUE(writeFileAtomically(path("f"), "abc"));
+  const std::string Name = path("f") + std::string("\0g", 2);
+  const auto Read = readFile(Name);
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().What,
+            "a NUL in the name, expected a name without one");
+  EXPECT_FALSE(writeFileAtomically(Name, "d"));
+  EXPECT_FALSE(checkWritable(Name));
+  EXPECT_EQ(readFile(path("f"))->size(), 3U);
+}
+
 TEST_F(FileTest, APipeIsReadToItsEnd) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   std::thread Writer([this] {

@@ -1,5 +1,7 @@
 #include "vorion/support/GrowingFile.h"
 
+#include "vorion/support/File.h"
+
 #include <cerrno>
 #include <cstring>
 
@@ -11,6 +13,8 @@ Expected<GrowingFile> GrowingFile::open(const std::string &Path) {
                  "this output is written as it grows, expected the name of a "
                  "file",
                  ExitCode::Usage};
+  if (auto Named = checkName(Path); !Named)
+    return Named.error();
   std::FILE *F = std::fopen(Path.c_str(), "wb");
   if (!F)
     return Error{Path, std::string("cannot write: ") + std::strerror(errno) +

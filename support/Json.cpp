@@ -167,15 +167,30 @@ Expected<Kind> parseJson(std::string_view Text, const std::string &Where,
   }
 }
 
+/// What \p Path holds, whose bytes are \p Read.
+template <typename Kind>
+static Expected<Kind>
+parseRead(const Expected<std::vector<std::byte>> &Read, const std::string &Path,
+          std::string_view Wanted, const JsonLimits &Limits) {
+  if (!Read)
+    return Read.error();
+  return parseJson<Kind>(
+      {reinterpret_cast<const char *>(Read->data()), Read->size()}, Path,
+      Wanted, Limits);
+}
+
 template <typename Kind>
 Expected<Kind> readJson(const std::string &Path, std::string_view Wanted,
                         const JsonLimits &Limits) {
-  const auto Bytes = readFile(Path, Limits.Bytes);
-  if (!Bytes)
-    return Bytes.error();
-  return parseJson<Kind>(
-      {reinterpret_cast<const char *>(Bytes->data()), Bytes->size()}, Path,
-      Wanted, Limits);
+  return parseRead<Kind>(readFile(Path, Limits.Bytes), Path, Wanted, Limits);
+}
+
+template <typename Kind>
+Expected<Kind> readRegularJson(const std::string &Path,
+                               std::string_view Wanted) {
+  const JsonLimits Limits;
+  return parseRead<Kind>(readRegularFile(Path, Limits.Bytes), Path, Wanted,
+                         Limits);
 }
 
 template <typename Kind> Kind ownJson(std::string_view Text) {
@@ -195,6 +210,8 @@ template <typename Kind> std::string jsonText(const Kind &J, int Indent) {
                                     std::string_view, const JsonLimits &);     \
   template Expected<KIND> readJson(const std::string &, std::string_view,      \
                                    const JsonLimits &);                        \
+  template Expected<KIND> readRegularJson(const std::string &,                 \
+                                          std::string_view);                   \
   template KIND ownJson(std::string_view);                                     \
   template std::string jsonText(const KIND &, int);
 VORION_INSTANTIATE(nlohmann::json)

@@ -172,6 +172,8 @@ bool isReplaced(const std::string &Target,
 
 /// What has \p Path's name, or nothing. A folder is an error.
 Expected<std::optional<struct stat>> replacedBy(const std::string &Path) {
+  if (auto Named = checkName(Path); !Named)
+    return Named.error();
   auto Info = statusOf(Path);
   if (!Info && errno != ENOENT)
     return cannotWrite(Path, errno);

@@ -8,7 +8,7 @@ namespace vorion::isasim {
 
 std::vector<std::string> sourceText(const std::string &Path) {
   std::vector<std::string> Lines;
-  const Expected<std::vector<std::byte>> Bytes = readFile(Path);
+  const Expected<std::vector<std::byte>> Bytes = readRegularFile(Path);
   if (!Bytes)
     return Lines;
   std::istringstream Text(std::string(

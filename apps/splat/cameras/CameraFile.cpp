@@ -14,13 +14,18 @@ namespace vorion::splat {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 constexpr const char *Wanted =
     "INRIA's cameras.json, transforms.json, nerfstudio's camera path, or a "
     "folder with COLMAP's cameras.bin or .txt";
 
-Expected<CameraFile> listOf(const std::string &Path) {
-  auto Cameras = readCameras(Path);
+/// The list that \p Path holds, whose content is \p Document.
+Expected<CameraFile> listOf(const std::string &Path,
+                            const Expected<Json> &Document) {
+  if (!Document)
+    return Document.error();
+  auto Cameras = parseCameras(Path, *Document);
   if (!Cameras)
     return Cameras.error();
   return CameraFile{std::move(*Cameras), {Path}};
@@ -44,11 +49,11 @@ Expected<CameraFile> captureOf(const std::string &Path, LensOf Of) {
 }
 
 Expected<CameraFile> jsonOf(const std::string &Path, LensOf Of) {
-  const auto Document = readJson<nlohmann::json>(Path, Wanted);
+  const auto Document = readJson<Json>(Path, Wanted);
   if (!Document)
     return Document.error();
   if (Document->is_array())
-    return listOf(Path);
+    return listOf(Path, Document);
   if (isCameraPath(*Document)) {
     auto Cameras = parseCameraPath(Path, *Document);
     if (!Cameras)
@@ -66,7 +71,7 @@ Expected<CameraFile> readCameraFile(const std::string &Path, LensOf Of) {
   std::error_code Ignored;
   if (fs::is_directory(Path, Ignored)) {
     if (const auto List = listIn(Path))
-      return listOf(*List);
+      return listOf(*List, readRegularJson<Json>(*List, "an array of cameras"));
     return captureOf(Path, Of);
   }
   const fs::path Ending = fs::path(Path).extension();

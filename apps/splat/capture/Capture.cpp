@@ -94,7 +94,7 @@ Expected<Success> checkOnce(const std::string &Path,
 }
 
 Expected<Success> checkPicture(const CaptureView &V) {
-  const auto File = readFile(V.Picture);
+  const auto File = readRegularFile(V.Picture);
   if (!File)
     return File.error();
   const auto Size = photoSize(V.Picture, *File);

@@ -31,7 +31,7 @@ Expected<ReadModel> readModel(const Location &F, bool PosesOnly) {
     Parts[I].To.Where = (F.Model / (std::string(Parts[I].Name) + Ending))
                             .lexically_normal()
                             .string();
-    auto Content = readFile(Parts[I].To.Where);
+    auto Content = readRegularFile(Parts[I].To.Where);
     if (!Content)
       return Content.error();
     Contents[I] = std::move(*Content);

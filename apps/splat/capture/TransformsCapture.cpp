@@ -4,6 +4,7 @@
 #include "capture/Transforms.h"
 #include "io/Inside.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ Expected<Success> setSizes(TransformsFile &T) {
       continue;
     // All of a file are of one size; the first says which.
     if (!Size) {
-      const auto Picture = readFile(V.Picture);
+      const auto Picture = readRegularFile(V.Picture);
       if (!Picture)
         return Picture.error();
       const auto Read = photoSize(V.Picture, *Picture);
@@ -40,7 +41,7 @@ Expected<Success> setSizes(TransformsFile &T) {
 }
 
 Expected<TransformsFile> transformsOf(const fs::path &File) {
-  const auto Content = readFile(File.string());
+  const auto Content = readRegularFile(File.string(), JsonLimits().Bytes);
   if (!Content)
     return Content.error();
   return parseTransforms(File.string(), *Content);
@@ -113,7 +114,7 @@ Expected<Success> readTransforms(const fs::path &File, ViewSet Set,
   if (auto Inside = checkInside(File.string(), T->Points, Options); !Inside)
     return Inside;
   const std::string Points = (Folder / T->Points).string();
-  const auto Cloud = readFile(Points);
+  const auto Cloud = readRegularFile(Points);
   if (!Cloud)
     return Cloud.error();
   auto Parsed = parsePointCloud(Points, *Cloud);

@@ -26,18 +26,31 @@ struct FirstDifference {
   std::size_t Place; ///< the shorter list's length where it is a beginning
 };
 
-Expected<Success> checkArrays(const std::string &Path, const Npz &Of) {
-  for (const char *Name : {"tile", "depth_bits", "index"})
-    if (!Of.contains(Name) || Of.at(Name).Type != "i4")
+constexpr const char *Names[] = {"tile", "depth_bits", "index"};
+
+/// The arrays of \p Path by which pairs are sorted.
+Expected<Npz> readPairs(const std::string &Path) {
+  auto File = NpzFile::open(Path);
+  if (!File)
+    return File.error();
+  Npz Pairs;
+  for (const char *Name : Names) {
+    const NpyShape *Found = File->find(Name);
+    if (!Found || Found->Type != "i4")
       return Error{Path, fmt::format("no int32 array {}, expected what "
                                      "--dump-pairs writes",
                                      Name)};
-  return Success{};
+    auto Array = File->read(Name);
+    if (!Array)
+      return Array.error();
+    Pairs[Name] = std::move(*Array);
+  }
+  return Pairs;
 }
 
 std::optional<FirstDifference> firstDifference(const Npz &First,
                                                const Npz &Second) {
-  for (const char *Name : {"tile", "depth_bits", "index"}) {
+  for (const char *Name : Names) {
     const auto X = First.at(Name).toDoubles();
     const auto Y = Second.at(Name).toDoubles();
     const auto At = std::mismatch(X.begin(), X.end(), Y.begin(), Y.end());
@@ -77,16 +90,12 @@ Expected<Success> comparePairs(const CompareArguments &A) {
           {{"--json", A.Json}}, {{"pairs", A.Reference}, {"pairs", A.Picture}});
       !Claimed)
     return Claimed;
-  const auto First = readNpz(A.Reference);
+  const auto First = readPairs(A.Reference);
   if (!First)
     return First.error();
-  const auto Second = readNpz(A.Picture);
+  const auto Second = readPairs(A.Picture);
   if (!Second)
     return Second.error();
-  for (const auto &[Path, Arrays] :
-       {std::pair(&A.Reference, &*First), std::pair(&A.Picture, &*Second)})
-    if (auto Checked = checkArrays(*Path, *Arrays); !Checked)
-      return Checked;
   const std::size_t Pairs = First->at("tile").elements();
   const std::size_t Others = Second->at("tile").elements();
   const auto Found = firstDifference(*First, *Second);

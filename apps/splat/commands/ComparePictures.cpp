@@ -41,19 +41,22 @@ void roundToBytes(ExactImage &I) {
 /// The union of the arrays of \p File whose names begin with "mask".
 Expected<std::vector<uint8_t>> readMask(const std::string &File,
                                         const ExactImage &Picture) {
-  const auto Arrays = readNpz(File);
+  auto Arrays = NpzFile::open(File);
   if (!Arrays)
     return Arrays.error();
   std::vector<uint8_t> Mask(Picture.pixels(), 0);
   bool Found = false;
-  for (const auto &[Name, Array] : *Arrays) {
+  for (const auto &[Name, Shape] : Arrays->shapes()) {
     if (!Name.starts_with("mask"))
       continue;
-    const std::vector<double> Values = Array.toDoubles();
-    if (Values.size() != Mask.size()) // text has no values
+    if (Shape.numbers() != Mask.size())
       return Error{File,
                    fmt::format("{} has {} elements, expected {}x{}", Name,
-                               Values.size(), Picture.Height, Picture.Width)};
+                               Shape.numbers(), Picture.Height, Picture.Width)};
+    const auto Array = Arrays->read(Name);
+    if (!Array)
+      return Array.error();
+    const std::vector<double> Values = Array->toDoubles();
     Found = true;
     for (std::size_t I = 0; I < Mask.size(); ++I)
       Mask[I] |= static_cast<uint8_t>(Values[I] != 0);

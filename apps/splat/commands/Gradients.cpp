@@ -37,17 +37,20 @@ struct GradientArguments {
 };
 
 /// The array \p Name of \p File with \p Count elements.
-Expected<std::vector<float>> arrayOf(const std::string &File, const Npz &Arrays,
+Expected<std::vector<float>> arrayOf(const std::string &File, NpzFile &Arrays,
                                      const std::string &Name,
                                      std::size_t Count) {
-  const auto Found = Arrays.find(Name);
-  if (Found == Arrays.end())
+  const NpyShape *Found = Arrays.find(Name);
+  if (!Found)
     return Error{File, fmt::format("no array {}", Name)};
-  std::vector<float> Values = Found->second.toFloats();
-  if (Values.size() != Count)
+  if (Found->numbers() != Count)
     return Error{File, fmt::format("array {} has {} elements, expected {} for "
                                    "the view's pixels",
-                                   Name, Values.size(), Count)};
+                                   Name, Found->numbers(), Count)};
+  const auto Array = Arrays.read(Name);
+  if (!Array)
+    return Array.error();
+  std::vector<float> Values = Array->toFloats();
   if (const auto Bad = std::ranges::find_if_not(
           Values, [](float V) { return std::isfinite(V); });
       Bad != Values.end())
@@ -59,7 +62,7 @@ Expected<std::vector<float>> arrayOf(const std::string &File, const Npz &Arrays,
 
 Expected<PixelGradients> readUpstream(const std::string &File,
                                       const Camera &C) {
-  const auto Arrays = readNpz(File);
+  auto Arrays = NpzFile::open(File);
   if (!Arrays)
     return Arrays.error();
   const std::size_t Pixels =

@@ -105,7 +105,7 @@ Expected<std::string> Launcher::sourceOf(const ProgramSpec &Spec) const {
       Source += kernelSource(File);
       continue;
     }
-    auto Text = readFile(KernelFolder + "/" + File);
+    auto Text = readRegularFile(KernelFolder + "/" + File);
     if (!Text)
       return Text.error();
     Source.append(reinterpret_cast<const char *>(Text->data()), Text->size());

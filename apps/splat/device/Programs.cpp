@@ -70,7 +70,7 @@ Expected<std::string> hashPrograms() {
   }
   std::string Hashes;
   for (const auto &[Name, File] : Files) {
-    const auto Bytes = readFile(File.string());
+    const auto Bytes = readRegularFile(File.string());
     if (!Bytes)
       return Bytes.error();
     Hashes += fmt::format("{:016x} {}\n", hashByWords(*Bytes), Name);

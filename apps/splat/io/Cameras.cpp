@@ -200,13 +200,16 @@ std::array<double, 3> Camera::worldToCameraTranslation() const {
 
 Expected<std::vector<Camera>> readCameras(const std::string &Path) {
   const auto Document = readJson<Json>(Path, "an array of cameras");
-  if (!Document)
-    return Document.error();
-  if (!Document->is_array() || Document->empty())
+  return Document ? parseCameras(Path, *Document) : Document.error();
+}
+
+Expected<std::vector<Camera>> parseCameras(const std::string &Path,
+                                           const Json &Document) {
+  if (!Document.is_array() || Document.empty())
     return Error{Path, "expected a non-empty array of cameras"};
   std::vector<Camera> Cameras;
-  for (std::size_t I = 0; I < Document->size(); ++I) {
-    auto C = RecordReader(Path, I, (*Document)[I]).read();
+  for (std::size_t I = 0; I < Document.size(); ++I) {
+    auto C = RecordReader(Path, I, Document[I]).read();
     if (!C)
       return C.error();
     Cameras.push_back(std::move(*C));

@@ -5,6 +5,7 @@
 #include "vorion/support/Expected.h"
 
 #include <array>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ bool isRotation(const std::array<std::array<double, 3>, 3> &R);
 /// (Unsupported.h) are errors, unless they are zero; others are ignored. Every
 /// error names file, record and key.
 Expected<std::vector<Camera>> readCameras(const std::string &Path);
+/// The same of \p Document, which \p Path holds.
+Expected<std::vector<Camera>> parseCameras(const std::string &Path,
+                                           const nlohmann::json &Document);
 
 /// Those of \p Cameras, which \p Path has, that are called \p Views: by name,
 /// else by id written as a number, else by a name without folder, or without

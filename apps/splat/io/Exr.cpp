@@ -69,8 +69,13 @@ const char *loneChannel(const Imf::ChannelList &C) {
   return C.findChannel("Z") ? "Z" : nullptr;
 }
 
-/// What is wrong with \p H for a picture; nothing if it is one.
-std::optional<std::string> refusal(const Imf::Header &H, std::size_t FileSize) {
+/// What is wrong with the size of \p H's picture; nothing if it may be taken.
+std::optional<std::string> sizeRefusal(const Imf::Header &H,
+                                       std::size_t FileSize) {
+  // What we make of it, and what the library does of all its channels.
+  std::size_t Ours = 4 * sizeof(float), Theirs = 0;
+  for (auto C = H.channels().begin(); C != H.channels().end(); ++C)
+    Theirs += C.channel().type == Imf::HALF ? 2 : 4;
   for (const Imath::Box2i &Window : {H.displayWindow(), H.dataWindow()}) {
     const int64_t Width = int64_t{Window.max.x} - Window.min.x + 1;
     const int64_t Height = int64_t{Window.max.y} - Window.min.y + 1;
@@ -78,13 +83,18 @@ std::optional<std::string> refusal(const Imf::Header &H, std::size_t FileSize) {
         Height > MaxPictureSide)
       return fmt::format("{}x{} pixels, expected sides of 1 to {}", Width,
                          Height, MaxPictureSide);
-    const auto Size = static_cast<std::size_t>(4 * sizeof(float)) *
-                      static_cast<std::size_t>(Width * Height);
+    const std::size_t Size =
+        std::max(Ours, Theirs) * static_cast<std::size_t>(Width * Height);
     if (Size > unpackLimit(FileSize))
       return fmt::format("{}x{} pixels in a file of {} bytes, expected at most "
                          "{} bytes unpacked",
                          Width, Height, FileSize, unpackLimit(FileSize));
   }
+  return {};
+}
+
+/// What is wrong with the channels of \p H for a picture; nothing if it is one.
+std::optional<std::string> channelRefusal(const Imf::Header &H) {
   std::string Names;
   for (auto C = H.channels().begin(); C != H.channels().end(); ++C)
     Names += (Names.empty() ? "" : ", ") + printable(C.name());
@@ -101,6 +111,59 @@ std::optional<std::string> refusal(const Imf::Header &H, std::size_t FileSize) {
   return {};
 }
 
+/// What is wrong with the attributes that begin at \p At; nothing if the file
+/// has all that they claim. The library would take memory for a claim first.
+std::optional<std::string> attributeRefusal(Bytes File, std::size_t At) {
+  const auto Text = [&] {
+    const std::string_view Rest = asText(File.subspan(At));
+    const std::string_view Found = Rest.substr(0, Rest.find('\0'));
+    At = std::min(At + Found.size() + 1, File.size());
+    return Found;
+  };
+  for (;;) {
+    const std::string_view Name = Text();
+    if (Name.empty() && At < File.size())
+      return {};
+    Text(); // of its type
+    if (File.size() - At < sizeof(int32_t))
+      return "ends within its header, expected a whole picture";
+    const auto Size = load<int32_t>(File, At);
+    At += sizeof(Size);
+    if (Size < 0 || static_cast<std::size_t>(Size) > File.size() - At)
+      return fmt::format("attribute {} claims {} bytes of {} that are left, "
+                         "expected no more",
+                         printable(Name), Size, File.size() - At);
+    At += static_cast<std::size_t>(Size);
+  }
+}
+
+/// What is wrong with the headers of \p File, found before anything is made of
+/// them; nothing if the library may read it.
+std::optional<std::string> refusal(Bytes File) {
+  constexpr std::size_t Begin = 2 * sizeof(int32_t);
+  constexpr int SeveralParts = 0x1000;
+  if (File.size() < Begin)
+    return "ends within its header, expected a whole picture";
+  int Version = load<int32_t>(File, sizeof(int32_t));
+  BytesIn Stream(File);
+  Stream.seekg(Begin);
+  for (bool IsFirst = true;; IsFirst = false) {
+    if (auto Why = attributeRefusal(File, Stream.tellg()))
+      return Why;
+    Imf::Header H;
+    H.readFrom(Stream, Version);
+    if (auto Why = sizeRefusal(H, File.size()))
+      return Why;
+    if (IsFirst)
+      if (auto Why = channelRefusal(H))
+        return Why;
+    // An empty header is behind the last one.
+    if ((Version & SeveralParts) == 0 || Stream.tellg() >= File.size() ||
+        byteAt(File, Stream.tellg()) == 0)
+      return {};
+  }
+}
+
 /// A channel of the data window as floats.
 struct ChannelPlane {
   const char *Name;
@@ -108,11 +171,11 @@ struct ChannelPlane {
 };
 
 Expected<ExactImage> decode(const std::string &Where, Bytes Bytes) {
+  if (const auto Why = refusal(Bytes))
+    return Error{Where, *Why};
   BytesIn Stream(Bytes);
   Imf::InputFile File(Stream, /*numThreads=*/0);
   const Imf::Header &H = File.header();
-  if (const auto Why = refusal(H, Bytes.size()))
-    return Error{Where, *Why};
   const Imath::Box2i &Shown = H.displayWindow(), &Data = H.dataWindow();
   const auto Across =
       static_cast<std::size_t>(int64_t{Data.max.x} - Data.min.x + 1);

@@ -10,7 +10,7 @@
 namespace vorion::splat {
 
 Expected<std::string> hashFile(const std::string &File) {
-  const auto Bytes = readFile(File);
+  const auto Bytes = readRegularFile(File);
   if (!Bytes)
     return Bytes.error();
   return fnv1a64(

@@ -114,27 +114,32 @@ Expected<ExactImage> readPfm(const std::string &Path) {
 }
 
 Expected<ExactImage> readImageNpz(const std::string &Path) {
-  const auto Arrays = readNpz(Path);
-  if (!Arrays)
-    return Arrays.error();
-  const auto Render = Arrays->find("render");
-  if (Render == Arrays->end())
+  auto File = NpzFile::open(Path);
+  if (!File)
+    return File.error();
+  const NpyShape *R = File->find("render"), *Alpha = File->find("alpha");
+  if (!R)
     return Error{Path, "no array `render`"};
-  const NpyArray &R = Render->second;
-  const bool Real = R.Type == "f4" || R.Type == "f8";
-  if (!Real || R.Shape.size() != 3 || R.Shape[2] != 3 || R.Shape[0] < 1 ||
-      R.Shape[1] < 1 || R.Shape[0] > MaxPictureSide ||
-      R.Shape[1] > MaxPictureSide)
+  const bool Real = R->Type == "f4" || R->Type == "f8";
+  if (!Real || R->Shape.size() != 3 || R->Shape[2] != 3 || R->Shape[0] < 1 ||
+      R->Shape[1] < 1 || R->Shape[0] > MaxPictureSide ||
+      R->Shape[1] > MaxPictureSide)
     return Error{Path, "array `render` is no picture, expected floats of "
                        "shape (height, width, 3)"};
   ExactImage I;
-  I.Height = static_cast<int>(R.Shape[0]);
-  I.Width = static_cast<int>(R.Shape[1]);
-  I.Render = R.toDoubles();
-  if (const auto Alpha = Arrays->find("alpha"); Alpha != Arrays->end()) {
-    I.Alpha = Alpha->second.toDoubles();
-    if (I.Alpha.size() != I.pixels())
-      return Error{Path, "array `alpha` does not have the size of `render`"};
+  I.Height = static_cast<int>(R->Shape[0]);
+  I.Width = static_cast<int>(R->Shape[1]);
+  if (Alpha && Alpha->numbers() != I.pixels())
+    return Error{Path, "array `alpha` does not have the size of `render`"};
+  const auto Render = File->read("render");
+  if (!Render)
+    return Render.error();
+  I.Render = Render->toDoubles();
+  if (Alpha) {
+    const auto Values = File->read("alpha");
+    if (!Values)
+      return Values.error();
+    I.Alpha = Values->toDoubles();
   }
   return I;
 }

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 #include <optional>
 
@@ -20,6 +21,10 @@ constexpr std::string_view Magic = "\x93NUMPY";
 
 /// NumPy has no more; each costs time for every element.
 constexpr std::size_t MostAxes = 64;
+
+/// NumPy itself reads no header of more than 10,000 bytes.
+constexpr std::size_t MostHeader = std::size_t{1} << 16;
+static_assert(MostHeader < MostNpyStart);
 
 /// Bytes of an element of \p Type; 0 for what is not read.
 std::size_t elementSize(std::string_view Type) {
@@ -140,11 +145,16 @@ void toCOrder(NpyArray &A) {
 
 } // namespace
 
-std::size_t NpyArray::elements() const {
+static std::size_t product(const std::vector<std::size_t> &Shape) {
   std::size_t N = 1;
   for (const std::size_t Extent : Shape)
     N *= Extent;
   return N;
+}
+
+std::size_t NpyArray::elements() const { return product(Shape); }
+std::size_t NpyShape::numbers() const {
+  return Type.starts_with('U') ? 0 : product(Shape);
 }
 
 std::vector<double> NpyArray::toDoubles() const {
@@ -183,14 +193,12 @@ NpyArray NpyArray::fromBools(std::vector<std::size_t> Shape,
   return arrayOf("b1", std::move(Shape), Values);
 }
 
-Expected<NpyArray> parseNpy(const std::string &Where,
-                            const std::vector<std::byte> &Bytes) {
-  const std::string_view All(reinterpret_cast<const char *>(Bytes.data()),
-                             Bytes.size());
+Expected<NpyHeader> parseNpyHeader(const std::string &Where, Bytes Start) {
+  const std::string_view All = asText(Start);
   // Magic, two bytes of version, then the header's length: two bytes in
   // version 1, four in 2 and 3.
   if (!All.starts_with(Magic))
-    return otherKind(Where, Bytes, "a .npy array, which NumPy writes",
+    return otherKind(Where, Start, "a .npy array, which NumPy writes",
                      "not a .npy array");
   if (All.size() < 10)
     return Error{Where, "the .npy array ends within its header, expected a "
@@ -202,15 +210,19 @@ Expected<NpyArray> parseNpy(const std::string &Where,
   std::size_t Length = 0;
   if (All.size() >= 8 + LengthBytes)
     std::memcpy(&Length, All.data() + 8, LengthBytes);
-  const std::size_t Start = 8 + LengthBytes;
-  if (All.size() < Start || All.size() - Start < Length)
+  const std::size_t Begin = 8 + LengthBytes;
+  if (Length > MostHeader)
+    return Error{Where, fmt::format("a .npy header of {} bytes, expected at "
+                                    "most {}",
+                                    Length, MostHeader)};
+  if (All.size() < Begin || All.size() - Begin < Length)
     return Error{Where, "ends within the .npy header"};
-  const std::string_view Header = All.substr(Start, Length);
+  const std::string_view Header = All.substr(Begin, Length);
 
   const auto Descr = valueOf(Header, "descr");
   const auto Fortran = valueOf(Header, "fortran_order");
   const auto ShapeText = valueOf(Header, "shape");
-  const auto Shape = ShapeText ? parseShape(*ShapeText) : std::nullopt;
+  auto Shape = ShapeText ? parseShape(*ShapeText) : std::nullopt;
   if (!Descr || !Fortran || !Shape)
     return Error{Where, "malformed .npy header, expected descr, fortran_order "
                         "and shape"};
@@ -227,16 +239,33 @@ Expected<NpyArray> parseNpy(const std::string &Where,
   if (Shape->size() > MostAxes)
     return Error{Where, fmt::format("an array of {} axes, expected at most {}",
                                     Shape->size(), MostAxes)};
-  const auto Size = bytesOf(*Shape, elementSize(Type.substr(1)));
-  const std::size_t Body = All.size() - Start - Length;
-  if (!Size || *Size != Body)
-    return Error{Where,
-                 fmt::format("{} bytes of data, expected {} of shape {}", Body,
-                             Type,
-                             ShapeText->substr(0, ShapeText->find(')') + 1))};
-  NpyArray A{std::string(Type.substr(1)), *Shape, {}};
-  A.Bytes.assign(Bytes.end() - static_cast<std::ptrdiff_t>(Body), Bytes.end());
-  if (!Fortran->starts_with("False"))
+  // No file has as many, and the header's bytes can be added to it.
+  constexpr std::size_t TooLarge = std::size_t{1} << 62;
+  const std::size_t Size =
+      std::min(TooLarge,
+               bytesOf(*Shape, elementSize(Type.substr(1))).value_or(TooLarge));
+  return NpyHeader{std::string(Type.substr(1)), std::move(*Shape),
+                   !Fortran->starts_with("False"), Begin + Length, Size};
+}
+
+static Error wrongSize(const std::string &Where, const NpyHeader &H,
+                       std::size_t Body) {
+  return {Where, fmt::format("{} bytes of data, expected <{} of shape ({})",
+                             Body, H.Type, fmt::join(H.Shape, ", "))};
+}
+
+Expected<NpyArray> parseNpy(const std::string &Where,
+                            std::vector<std::byte> Bytes) {
+  auto H = parseNpyHeader(Where, Bytes);
+  if (!H)
+    return H.error();
+  const std::size_t Body = Bytes.size() - H->Begin;
+  if (H->Size != Body)
+    return wrongSize(Where, *H, Body);
+  Bytes.erase(Bytes.begin(),
+              Bytes.begin() + static_cast<std::ptrdiff_t>(H->Begin));
+  NpyArray A{std::move(H->Type), std::move(H->Shape), std::move(Bytes)};
+  if (H->IsFortran)
     toCOrder(A);
   return A;
 }

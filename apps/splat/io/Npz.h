@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,15 +42,43 @@ struct NpyArray {
 
 using Npz = std::map<std::string, NpyArray>;
 
-/// Reads the arrays of \p Path, stored or deflated; Fortran order becomes C
-/// order. Refused with the reason:
-/// what is no zip archive, big endian, element types not listed
-/// above, sizes that do not match the shape.
+/// An array before it is unpacked.
+struct NpyShape {
+  std::string Type;               ///< as NpyArray has it
+  std::vector<std::size_t> Shape; ///< likewise
+
+  /// How many numbers there are; of text, none.
+  std::size_t numbers() const;
+};
+
+/// A file whose arrays are unpacked one by one: they may be a thousand times as
+/// large as the file, and a reader knows by their shapes what it does not want.
+/// Refused with the reason: what is no zip archive, big endian, element types
+/// not listed above, sizes that do not match the shape.
+class NpzFile {
+public:
+  static Expected<NpzFile> open(const std::string &Path);
+  NpzFile(NpzFile &&) noexcept;
+  ~NpzFile();
+
+  const std::map<std::string, NpyShape> &shapes() const;
+  /// That of the array \p Name; null if there is none.
+  const NpyShape *find(const std::string &Name) const;
+  /// The array \p Name, one of shapes(). Fortran order becomes C order.
+  Expected<NpyArray> read(const std::string &Name);
+
+private:
+  struct Content;
+  explicit NpzFile(std::unique_ptr<Content> TheContent);
+  std::unique_ptr<Content> Own;
+};
+
+/// All arrays of \p Path.
 Expected<Npz> readNpz(const std::string &Path);
 
 /// Parses one .npy file; \p Where names it in errors.
 Expected<NpyArray> parseNpy(const std::string &Where,
-                            const std::vector<std::byte> &Bytes);
+                            std::vector<std::byte> Bytes);
 
 /// Writes \p Arrays deflated, in the order of their names.
 Expected<Success> writeNpz(const std::string &Path, const Npz &Arrays);

@@ -2,6 +2,7 @@
 
 #include "vorion/support/FileKind.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 #include <zip.h>
@@ -22,6 +23,14 @@ std::string describe(zip_error_t &E) {
   std::string Text = zip_error_strerror(&E);
   zip_error_fini(&E);
   return Text;
+}
+
+/// What the directory says of \p Entry; zeros where it says nothing.
+zip_stat_t statusOf(zip_t *Archive, uint64_t Entry) {
+  zip_stat_t Status;
+  zip_stat_init(&Status);
+  zip_stat_index(Archive, Entry, 0, &Status);
+  return Status;
 }
 
 } // namespace
@@ -63,39 +72,81 @@ std::string ZipArchive::name(uint64_t Entry) const {
   return Name ? printable(Name) : "";
 }
 
-Expected<std::vector<std::byte>> ZipArchive::read(uint64_t Entry) {
-  const std::string Place = fmt::format("{}: {}", Where, name(Entry));
+std::string ZipArchive::placeOf(uint64_t Entry) const {
+  return fmt::format("{}: {}", Where, name(Entry));
+}
+
+Error ZipArchive::tooMuch(uint64_t Entry) const {
+  return {placeOf(Entry), fmt::format("more than {} bytes of entries in an "
+                                      "archive of {}, expected less",
+                                      unpackLimit(Size), Size)};
+}
+
+Expected<uint64_t> ZipArchive::find(const std::string &Name) const {
+  const zip_int64_t Entry = zip_name_locate(Handle.get(), Name.c_str(), 0);
+  if (Entry < 0)
+    return Error{fmt::format("{}: {}", Where, printable(Name)),
+                 "no such entry, expected it in the archive"};
+  return static_cast<uint64_t>(Entry);
+}
+
+uint64_t ZipArchive::packedSize(uint64_t Entry) const {
+  return std::min<uint64_t>(statusOf(Handle.get(), Entry).comp_size, Size);
+}
+
+Expected<bool> ZipArchive::unpack(uint64_t Entry, std::size_t Most,
+                                  std::vector<std::byte> &To) {
   const std::unique_ptr<zip_file_t, CloseEntry> F(
       zip_fopen_index(Handle.get(), Entry, 0));
   if (!F)
-    return Error{Place, fmt::format("cannot open the entry: {}",
-                                    zip_strerror(Handle.get()))};
-  std::vector<std::byte> Content;
+    return Error{placeOf(Entry), fmt::format("cannot open the entry: {}",
+                                             zip_strerror(Handle.get()))};
   constexpr std::size_t Chunk = 1 << 16;
-  while (true) {
-    const std::size_t Old = Content.size();
-    Content.resize(Old + Chunk);
-    const zip_int64_t Got = zip_fread(F.get(), Content.data() + Old, Chunk);
-    Content.resize(Old + static_cast<std::size_t>(Got > 0 ? Got : 0));
+  std::vector<std::byte> Part(Chunk);
+  while (To.size() < Most) {
+    const zip_int64_t Got =
+        zip_fread(F.get(), Part.data(), std::min(Chunk, Most - To.size()));
     if (Got < 0)
-      return Error{Place, fmt::format("cannot read the entry: {}",
-                                      zip_file_strerror(F.get()))};
+      return Error{placeOf(Entry), fmt::format("cannot read the entry: {}",
+                                               zip_file_strerror(F.get()))};
     if (Got == 0)
-      return Content;
-    if (static_cast<std::size_t>(Got) > Left)
-      return Error{Place, fmt::format("more than {} bytes of entries in an "
-                                      "archive of {}, expected less",
-                                      unpackLimit(Size), Size)};
-    Left -= static_cast<std::size_t>(Got);
+      return true;
+    To.insert(To.end(), Part.begin(), Part.begin() + Got);
   }
+  return false;
 }
 
-Expected<std::vector<std::byte>> ZipArchive::read(const std::string &Name) {
-  const zip_int64_t Entry = zip_name_locate(Handle.get(), Name.c_str(), 0);
-  if (Entry < 0)
-    return Error{fmt::format("{}: {}", Where, Name),
-                 "no such entry, expected it in the archive"};
-  return read(static_cast<uint64_t>(Entry));
+Expected<std::vector<std::byte>> ZipArchive::readStart(uint64_t Entry,
+                                                       std::size_t Most) {
+  std::vector<std::byte> Start;
+  if (const auto Done = unpack(Entry, Most, Start); !Done)
+    return Done.error();
+  if (Start.size() > Left)
+    return tooMuch(Entry);
+  Left -= Start.size();
+  return Start;
+}
+
+Expected<std::vector<std::byte>> ZipArchive::read(uint64_t Entry,
+                                                  std::size_t Most) {
+  const uint64_t Claimed = statusOf(Handle.get(), Entry).size;
+  std::vector<std::byte> Content;
+  // The byte beyond shows that there is more.
+  if (Claimed <= std::min(Most, Left)) {
+    Content.reserve(Claimed);
+    const auto Ended = unpack(Entry, std::min(Most, Left) + 1, Content);
+    if (!Ended)
+      return Ended.error();
+    if (*Ended) {
+      Left -= Content.size();
+      return Content;
+    }
+  }
+  if (Most < Left)
+    return Error{placeOf(Entry), fmt::format("an entry of more than {0} bytes, "
+                                             "expected at most {0}",
+                                             Most)};
+  return tooMuch(Entry);
 }
 
 Expected<std::string>

@@ -26,18 +26,27 @@ public:
   uint64_t entries() const;
   /// The name of an entry; empty if it has none.
   std::string name(uint64_t Entry) const;
-  /// The content of an entry, checksum included. What the directory claims of
-  /// its size is not believed before the bytes are there, and of all entries
-  /// that are read no more than \c unpackLimit of the archive's size: several
-  /// may stand for the same bytes.
-  Expected<std::vector<std::byte>> read(uint64_t Entry);
-  /// The content of the entry called \p Name.
-  Expected<std::vector<std::byte>> read(const std::string &Name);
+  /// The number of the entry called \p Name.
+  Expected<uint64_t> find(const std::string &Name) const;
+  /// How many bytes of the archive an entry takes by the directory.
+  uint64_t packedSize(uint64_t Entry) const;
+  /// The content of an entry, checksum included, which is of \p Most bytes at
+  /// most. What the directory claims of its size is only believed if it is too
+  /// large, and of all entries that are read no more than \c unpackLimit of the
+  /// archive's size: several may stand for the same bytes.
+  Expected<std::vector<std::byte>> read(uint64_t Entry, std::size_t Most);
+  /// The first \p Most bytes of it, or all if it is shorter.
+  Expected<std::vector<std::byte>> readStart(uint64_t Entry, std::size_t Most);
 
 private:
   struct Discard {
     void operator()(zip *Z) const;
   };
+  /// Reads until \p Most bytes or the end; true if that was the end.
+  Expected<bool> unpack(uint64_t Entry, std::size_t Most,
+                        std::vector<std::byte> &To);
+  std::string placeOf(uint64_t Entry) const;
+  Error tooMuch(uint64_t Entry) const;
   ZipArchive(std::string Where, std::size_t Size, zip *Z)
       : Where(std::move(Where)), Size(Size), Left(unpackLimit(Size)),
         Handle(Z) {}

@@ -1,11 +1,12 @@
 #include "scene/SceneFiles.h"
 
+#include "io/Bytes.h"
 #include "io/Inside.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -24,11 +25,9 @@ bool isFile(const fs::path &Path) {
 /// Whether \p Path is a text that begins as a JSON object; most scenes are too
 /// large to be read for this alone.
 bool isDescription(const std::string &Path) {
-  if (!isFile(Path)) // a pipe can be read only once
-    return false;
-  std::ifstream In(Path, std::ios::binary);
-  In >> std::ws;
-  return In.peek() == '{';
+  constexpr std::size_t Looked = 4096;
+  const auto Start = readStart(Path, Looked);
+  return Start && trimmed(asText(*Start), " \t\r\n").starts_with('{');
 }
 
 /// Descriptions in the folder \p Path, as readSogFolder() looks for them.
@@ -54,7 +53,8 @@ public:
     Files.push_back(File);
     if (!isDescription(File))
       return;
-    const auto Content = readJson<Json>(File, "a description of a scene");
+    const auto Content =
+        readRegularJson<Json>(File, "a description of a scene");
     if (Content)
       addNamed(fs::path(File).parent_path(), *Content);
   }

@@ -100,7 +100,8 @@ Expected<WrittenScene> writeSogFolder(const std::string &Path, const Scene &S,
   const std::string &Index = Files->at(std::string(SogIndex));
   auto Read = parseSogData(
       Path, Path, std::as_bytes(std::span(Index)),
-      [&](const std::string &Name) -> Expected<std::vector<std::byte>> {
+      [&](const std::string &Name,
+          std::size_t /*Most*/) -> Expected<std::vector<std::byte>> {
         const auto Bytes = std::as_bytes(std::span(Files->at(Name)));
         return std::vector<std::byte>(Bytes.begin(), Bytes.end());
       });

@@ -21,7 +21,7 @@ namespace vorion::splat {
 using Json = nlohmann::ordered_json;
 
 Expected<Json> readJson(const std::string &Path) {
-  return vorion::readJson<Json>(Path, "what splat wrote there");
+  return readRegularJson<Json>(Path, "what splat wrote there");
 }
 
 Expected<Success> makeFolders(const std::string &Folder) {

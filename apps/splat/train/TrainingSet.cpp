@@ -12,7 +12,7 @@ namespace vorion::splat {
 namespace {
 
 Expected<Plane> readPhoto(const std::string &Path) {
-  const auto File = readFile(Path);
+  const auto File = readRegularFile(Path);
   return File ? decodePhoto(Path, *File) : File.error();
 }
 

@@ -124,7 +124,8 @@ Reading streamedSog(std::size_t Size) {
   return [Files, Index] {
     const auto Read = parseStreamedSog(
         "scene", bytesOf(Index),
-        [&](const std::string &Name) -> Expected<std::vector<std::byte>> {
+        [&](const std::string &Name,
+            std::size_t /*Most*/) -> Expected<std::vector<std::byte>> {
           const Bytes B = bytesOf(Files.at(Name));
           return std::vector<std::byte>(B.begin(), B.end());
         },

@@ -439,7 +439,7 @@ Expected<SceneFile> readGltf(const std::string &Path, Bytes File,
   return parseGltfFiles(
       Path, File,
       [&](const std::string &Name) {
-        return readFile((Folder / Name).string());
+        return readRegularFile((Folder / Name).string());
       },
       Options);
 }

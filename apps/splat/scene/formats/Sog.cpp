@@ -304,15 +304,16 @@ private:
                                  Group, Index + 1)));
       return None;
     }
-    auto Content = (*Read)(Files[Index].get<std::string>());
+    constexpr std::size_t Padding = 4, Small = std::size_t(4) << 20;
+    const std::size_t Declared =
+        4 * Padding * std::min(Pixels, MostPixels) + Small;
+    // No file is larger than its pixels.
+    auto Content = (*Read)(Files[Index].get<std::string>(), Declared);
     if (!Content) {
       fail(Content.error());
       return None;
     }
     FileSizes += Content->size();
-    constexpr std::size_t Padding = 4, Small = std::size_t(4) << 20;
-    const std::size_t Declared =
-        4 * Padding * std::min(Pixels, MostPixels) + Small;
     auto P =
         planeForWebP(file(Group, Index), *Content,
                      std::min(unpackLimit(FileSizes) - Unpacked, Declared));

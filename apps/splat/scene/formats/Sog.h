@@ -10,9 +10,10 @@
 
 namespace vorion::splat {
 
-/// Gives the content of a file of a data set by its name.
-using FileSource =
-    std::function<Expected<std::vector<std::byte>>(const std::string &Name)>;
+/// Gives the content of a file of a data set by its name. One of more than
+/// \p Most bytes is an error.
+using FileSource = std::function<Expected<std::vector<std::byte>>(
+    const std::string &Name, std::size_t Most)>;
 
 /// A data set whose description and pictures were read, and whose Gaussians are
 /// to be written where they belong in a scene of one or more data sets. It has

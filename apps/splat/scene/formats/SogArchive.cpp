@@ -4,6 +4,7 @@
 #include "scene/ForeignFile.h"
 #include "scene/formats/Formats.h"
 #include "scene/formats/Sog.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 
@@ -22,12 +23,24 @@ Expected<SceneFile> parseSog(const std::string &Where, Bytes File,
     Names.push_back(Z->name(I));
   if (std::ranges::find(Names, "meta.json") == Names.end())
     return foreignArchive(Where, Names);
-  const auto Meta = Z->read("meta.json");
+  const auto MetaEntry = Z->find("meta.json");
+  if (!MetaEntry)
+    return MetaEntry.error();
+  const auto Meta = Z->read(*MetaEntry, JsonLimits().Bytes);
   if (!Meta)
     return Meta.error();
-  return parseSogData(
-      Where, Where + ": meta.json", *Meta,
-      [&Z](const std::string &Name) { return Z->read(Name); }, Options);
+  const auto Picture =
+      [&Z](const std::string &Name,
+           std::size_t Most) -> Expected<std::vector<std::byte>> {
+    const auto Entry = Z->find(Name);
+    if (!Entry)
+      return Entry.error();
+    // A WebP is packed already; small ones are let be.
+    constexpr std::size_t Again = 16, Small = std::size_t(1) << 20;
+    return Z->read(*Entry,
+                   std::min(Most, Again * Z->packedSize(*Entry) + Small));
+  };
+  return parseSogData(Where, Where + ": meta.json", *Meta, Picture, Options);
 }
 
 } // namespace vorion::splat

@@ -25,36 +25,37 @@ constexpr const char *MetaName = "meta.json";
 
 /// Reads files below \p Folder, and none outside that a description names.
 FileSource filesOf(const fs::path &Folder) {
-  return [Folder](const std::string &Name) -> Expected<std::vector<std::byte>> {
+  return [Folder](const std::string &Name,
+                  std::size_t Most) -> Expected<std::vector<std::byte>> {
     if (!staysInside(Name))
       return Error{Folder.string(),
                    fmt::format("names the file `{}`, expected one inside the "
                                "folder",
                                printable(Name))};
-    return readFile((Folder / Name).string());
+    return readRegularFile((Folder / Name).string(), Most);
   };
 }
 
 /// The same, but no file twice: of a scene that says the same thing again and
 /// again, memory would follow what it says and not its size.
 FileSource withoutRepeats(const std::string &Where, const FileSource &Read) {
-  return
-      [&Where, &Read, Names = std::set<std::string>()](
-          const std::string &Name) mutable -> Expected<std::vector<std::byte>> {
-        if (!Names.insert(fs::path(Name).lexically_normal().string()).second)
-          return Error{Where,
-                       fmt::format("names the file `{}` twice, expected each "
-                                   "file of a scene once",
-                                   printable(Name))};
-        return Read(Name);
-      };
+  return [&Where, &Read, Names = std::set<std::string>()](
+             const std::string &Name,
+             std::size_t Most) mutable -> Expected<std::vector<std::byte>> {
+    if (!Names.insert(fs::path(Name).lexically_normal().string()).second)
+      return Error{Where,
+                   fmt::format("names the file `{}` twice, expected each "
+                               "file of a scene once",
+                               printable(Name))};
+    return Read(Name, Most);
+  };
 }
 
 /// The data set whose description is \p Meta, a path from where \p Read starts.
 Expected<SogData> openDataSet(const std::string &Where, const std::string &Meta,
                               const FileSource &Read,
                               const ReadOptions &Options) {
-  const auto Content = Read(Meta);
+  const auto Content = Read(Meta, JsonLimits().Bytes);
   if (!Content)
     return Content.error();
   const fs::path Folder = fs::path(Meta).parent_path();
@@ -62,7 +63,9 @@ Expected<SogData> openDataSet(const std::string &Where, const std::string &Meta,
       Folder.empty() ? Where : Where + "/" + printable(Folder.string());
   return SogData::open(
       Inside, Inside + ": " + MetaName, *Content,
-      [&](const std::string &Name) { return Read((Folder / Name).string()); },
+      [&](const std::string &Name, std::size_t Most) {
+        return Read((Folder / Name).string(), Most);
+      },
       Options);
 }
 
@@ -337,7 +340,7 @@ Expected<SceneFile> readSogFolder(const std::string &Path,
   for (const char *Name : {IndexName, MetaName})
     if (const fs::path File = fs::path(Path) / Name;
         fs::exists(File, Ignored)) {
-      const auto Content = readFile(File.string());
+      const auto Content = readRegularFile(File.string(), JsonLimits().Bytes);
       if (!Content)
         return Content.error();
       return readSogJson(File.string(), *Content, Options);

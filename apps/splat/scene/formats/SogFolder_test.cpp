@@ -161,7 +161,8 @@ struct CountedFiles {
     const std::string &Index = Files.at("lod-meta.json");
     return parseStreamedSog(
         "s", std::as_bytes(std::span(Index)),
-        [this](const std::string &Name) -> Expected<std::vector<std::byte>> {
+        [this](const std::string &Name,
+               std::size_t /*Most*/) -> Expected<std::vector<std::byte>> {
           ++Asked;
           const auto B = std::as_bytes(std::span(
               Files.at(std::filesystem::path(Name).lexically_normal())));
@@ -243,7 +244,8 @@ TEST(SogFolder, ATreeDeeperThanAnySceneIsAnError) {
       Close + "}";
   const auto Read = parseStreamedSog(
       "s", std::as_bytes(std::span(Index)),
-      [](const std::string &Name) -> Expected<std::vector<std::byte>> {
+      [](const std::string &Name,
+         std::size_t /*Most*/) -> Expected<std::vector<std::byte>> {
         return Error{Name, "not asked for"};
       },
       {});

@@ -24,9 +24,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *Data, std::size_t Size) {
     Rest = Rest.subspan(NameSize + FileSize);
   }
   const FileSource Read =
-      [&](const std::string &Name) -> Expected<std::vector<std::byte>> {
+      [&](const std::string &Name,
+          std::size_t Most) -> Expected<std::vector<std::byte>> {
     const auto It = Files.find(Name);
-    if (It == Files.end())
+    if (It == Files.end() || It->second.size() > Most)
       return Error{Name, "no such file, expected it"};
     return std::vector<std::byte>(It->second.begin(), It->second.end());
   };

@@ -12,6 +12,10 @@
 
 namespace vorion {
 
+/// That \p Path has no NUL, behind which the system would not look: it would
+/// take the name for that of another file.
+Expected<Success> checkName(const std::string &Path);
+
 /// What is read at most of a device or a pipe, which does not say its size.
 inline constexpr uint64_t StreamLimit = uint64_t{1} << 30;
 
@@ -21,6 +25,16 @@ inline constexpr uint64_t StreamLimit = uint64_t{1} << 30;
 /// Directories and unreadable files are errors.
 Expected<std::vector<std::byte>> readFile(const std::string &Path,
                                           uint64_t Most = UINT64_MAX);
+
+/// The same of a file that a folder or another file names, which must be a
+/// regular one: nobody means a device there, and a pipe may never get a writer.
+/// Whatever takes the name's place meanwhile, this waits for nothing.
+Expected<std::vector<std::byte>> readRegularFile(const std::string &Path,
+                                                 uint64_t Most = UINT64_MAX);
+
+/// The first \p Size bytes of a regular file, or all if it is shorter.
+Expected<std::vector<std::byte>> readStart(const std::string &Path,
+                                           std::size_t Size);
 
 /// The path that means standard output to whatever writes a file.
 inline constexpr std::string_view StandardOutput = "-";

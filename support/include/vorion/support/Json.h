@@ -39,6 +39,12 @@ template <typename Kind>
 Expected<Kind> readJson(const std::string &Path, std::string_view Wanted,
                         const JsonLimits &Limits = {});
 
+/// The same of a file that a folder or another file names
+/// (readRegularFile()).
+template <typename Kind>
+Expected<Kind> readRegularJson(const std::string &Path,
+                               std::string_view Wanted);
+
 /// What this process has just written by jsonText() itself; anything else is a
 /// bug and ends in an assertion.
 template <typename Kind> Kind ownJson(std::string_view Text);
