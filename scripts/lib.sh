@@ -29,20 +29,25 @@ say() { printf '%s[%s] %s\n' "$([ ! -t 8 ] || printf '\r\033[K')" "$(elapsed)" "
 # is going on (on a terminal with the last line of output), and on failure shows the log's end.
 # What the command says by itself goes through descriptor 8.
 step() {
-  local Title=$1 Log="$Logs/$2.log" Pid Status=0 Last
+  local Title=$1 Log="$Logs/$2.log" Pid Status=0 Last Indent=8 Columns
   shift 2
   mkdir -p "$Logs"
   printf '[%s] %s\n' "$(elapsed)" "$Title"
   "$@" 8>&1 >"$Log" 2>&1 </dev/null &
   Pid=$!
+  # Whoever interrupts it gets a prompt on a line of its own.
+  [ ! -t 1 ] || trap 'printf "\n"; trap - INT; kill -INT $$' INT
   while kill -0 "$Pid" 2>/dev/null; do
     if [ -t 1 ]; then
-      Last=$(tail -n 1 "$Log" | tr -dc '[:print:]' | cut -c1-70)
-      printf '\r\033[K        %s' "$Last"
+      # A window's size changes, and its last column would begin a new line.
+      { Columns=$(stty size <&8 | cut -d ' ' -f 2); } 8>&1
+      [ "${Columns:-0}" -gt "$((Indent + 1))" ] || Columns=80
+      Last=$(tail -n 1 "$Log" | LC_ALL=C tr -dc '[:print:]' | cut -c "1-$((Columns - Indent - 1))")
+      printf '\r\033[K%*s%s' "$Indent" '' "$Last"
     fi
     sleep 0.3
   done
-  [ -t 1 ] && printf '\r\033[K'
+  [ ! -t 1 ] || { printf '\r\033[K' && trap - INT; }
   wait "$Pid" || Status=$?
   if [ "$Status" -ne 0 ]; then
     tail -n 40 "$Log" >&2

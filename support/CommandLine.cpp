@@ -2,6 +2,7 @@
 
 #include "vorion/support/Definition.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/HelpText.h"
 #include "vorion/support/Letters.h"
 #include "vorion/support/Suggest.h"
 
@@ -11,6 +12,7 @@
 #include <fmt/ranges.h>
 #include <limits>
 #include <regex>
+#include <sstream>
 #include <utility>
 
 namespace vorion {
@@ -420,7 +422,10 @@ std::optional<int> parseCommandLine(CLI::App &App,
       return reportError(App.get_name(),
                          {"", std::move(*Wrong), ExitCode::Usage});
   } catch (const CLI::Success &E) {
-    return App.exit(E); // --help
+    std::ostringstream Help;
+    const int Code = App.exit(E, Help, Help);
+    printHelp(Help.str());
+    return Code;
   }
   return std::nullopt;
 }

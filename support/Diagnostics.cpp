@@ -1,6 +1,7 @@
 #include "vorion/support/Diagnostics.h"
 
 #include "vorion/support/Printable.h"
+#include "vorion/support/StatusLine.h"
 #include "vorion/support/Terminal.h"
 
 #include <cstdio>
@@ -14,6 +15,7 @@ bool IsOutputTaken = false;
 
 /// Never throws for what \p To does not take: there is nobody left to tell.
 void write(std::FILE *To, const std::string &Text) {
+  clearStatus();
   static_cast<void>(std::fwrite(Text.data(), 1, Text.size(), To));
 }
 

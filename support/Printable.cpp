@@ -1,7 +1,10 @@
 #include "vorion/support/Printable.h"
 
+#include <algorithm>
+#include <clocale>
 #include <cstddef>
 #include <cstdint>
+#include <cwchar>
 #include <fmt/format.h>
 
 namespace vorion {
@@ -43,6 +46,20 @@ bool isControl(char32_t C) {
          || C == 0xfeff || C == 0x61c;       // nothing to see
 }
 
+/// Of a terminal, by Unicode's tables, which the C library has for a locale.
+std::size_t columns(char32_t C) {
+  if (C < 0x80)
+    return 1;
+  static const locale_t Unicode =
+      ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  if (!Unicode)
+    return 2; // no character takes more
+  const locale_t Had = ::uselocale(Unicode);
+  const int Width = ::wcwidth(static_cast<wchar_t>(C));
+  ::uselocale(Had);
+  return Width < 0 ? 1 : static_cast<std::size_t>(Width);
+}
+
 } // namespace
 
 std::string escaped(std::string_view Text) {
@@ -67,6 +84,29 @@ std::string escapedLines(std::string_view Text) {
        Text.remove_prefix(End + 1))
     Shown += escaped(Text.substr(0, End)) + '\n';
   return Shown + escaped(Text);
+}
+
+std::size_t columns(std::string_view Text) {
+  std::size_t Sum = 0;
+  for (std::size_t At = 0; At < Text.size();) {
+    const Character C = characterAt(Text, At);
+    Sum += C.Bytes == 0 ? 1 : columns(C.Code);
+    At += std::max<std::size_t>(C.Bytes, 1);
+  }
+  return Sum;
+}
+
+std::string_view firstColumns(std::string_view Text, std::size_t Most) {
+  std::size_t At = 0;
+  while (At < Text.size()) {
+    const Character C = characterAt(Text, At);
+    const std::size_t Needed = C.Bytes == 0 ? 1 : columns(C.Code);
+    if (Needed > Most)
+      break;
+    Most -= Needed;
+    At += std::max<std::size_t>(C.Bytes, 1);
+  }
+  return Text.substr(0, At);
 }
 
 std::string printable(std::string_view Text, std::size_t Most) {

@@ -43,6 +43,18 @@ TEST(Printable, KeepsTheLinesOfReports) {
   EXPECT_EQ(escapedLines("a"), "a");
 }
 
+TEST(Printable, CountsAndCutsColumns) {
+  constexpr const char *Two = "\xe6\xbc\xa2"; // a letter of two columns
+  constexpr const char *None = "e\xcc\x81";   // e and an accent behind it
+  EXPECT_EQ(columns("abc"), 3U);
+  EXPECT_EQ(columns(Two), 2U);
+  EXPECT_EQ(columns(None), 1U);
+  EXPECT_EQ(columns("\xff"), 1U) << "no UTF-8";
+  EXPECT_EQ(firstColumns("abc", 2), "ab");
+  EXPECT_EQ(firstColumns(std::string("a") + Two, 2), "a");
+  EXPECT_EQ(firstColumns(std::string(None) + "f", 1), None);
+}
+
 TEST(Printable, ShortensLongNames) {
   EXPECT_EQ(printable("abc", 3), "abc");
   EXPECT_EQ(printable("ab\ncd", 3), "ab\\x0a...");

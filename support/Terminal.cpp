@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <string_view>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace vorion {
@@ -20,6 +21,13 @@ bool canOverwrite() {
 }
 
 bool canColour() { return canOverwrite() && variable("NO_COLOR").empty(); }
+
+std::optional<std::size_t> columnsOf(int File) {
+  struct winsize Size{};
+  if (::ioctl(File, TIOCGWINSZ, &Size) != 0 || Size.ws_col == 0)
+    return std::nullopt;
+  return Size.ws_col;
+}
 
 std::string barText(std::size_t Done, std::size_t All) {
   constexpr std::size_t Width = 20;

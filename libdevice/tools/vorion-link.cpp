@@ -7,6 +7,7 @@
 #include "ObjectCheck.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/HelpText.h"
 #include "vorion/support/ServeCalls.h"
 #include "vorion/support/Tool.h"
 #include "vorion/support/ToolMessages.h"
@@ -189,7 +190,7 @@ Expected<Success> linkProgram(const CommandLine &Line) {
 int run(int Argc, char **Argv) {
   for (int I = 1; I < Argc; ++I)
     if (std::strcmp(Argv[I], "--help") == 0) {
-      printOut("{}{}\n", Usage, ExitCodeHelp);
+      printHelp(fmt::format("{}{}\n", Usage, ExitCodeHelp));
       return 0;
     } else if (std::strcmp(Argv[I], "--version") == 0) {
       printOut("{}\n", versionLine(Tool));

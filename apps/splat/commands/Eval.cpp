@@ -19,6 +19,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
+#include "vorion/support/StatusLine.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -155,7 +156,7 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
     return D.error();
   Launcher L(*D, A.KernelFolder, progressOf(Views.size()));
   const auto Scores = evaluate(L, Plan, File->Gaussians, A.Options, Views);
-  endProgress();
+  clearStatus();
   if (!Scores) {
     showBuildLog(L);
     return Scores.error();

@@ -17,6 +17,7 @@
 #include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
+#include "vorion/support/StatusLine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -154,7 +155,7 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   Launcher L(*D, A.KernelFolder, progress());
   const auto R =
       takeGradients(L, File->Gaussians, *C, A.Options, A.Backward, *U);
-  endProgress();
+  clearStatus();
   if (!R) {
     showBuildLog(L);
     return R.error();

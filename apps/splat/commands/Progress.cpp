@@ -1,10 +1,11 @@
 #include "commands/Progress.h"
 
 #include "device/Launcher.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/StatusLine.h"
 #include "vorion/support/Terminal.h"
 
 #include <chrono>
-#include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 
@@ -35,11 +36,8 @@ public:
     Blends = Doing == name(Stage::Blend);
     // What is read back was drawn before.
     const std::size_t View = Drawn + (Doing == name(Stage::ReadBack) ? 0 : 1);
-    if (canOverwrite())
-      std::fputs(fmt::format("\r\033[Ksplat: {} view {} of {}: {} ...{}",
-                             barText(Drawn, Views), View, Views, Doing, left())
-                     .c_str(),
-                 stderr);
+    showStatus(fmt::format("splat: {} view {} of {}: {} ...{}",
+                           barText(Drawn, Views), View, Views, Doing, left()));
   }
 
 private:
@@ -54,9 +52,7 @@ private:
     if (Drawn == Views || seconds(Clock::now() - LastLine) < Every)
       return;
     LastLine = Clock::now();
-    std::fputs(
-        fmt::format("splat: {} of {} views{}\n", Drawn, Views, left()).c_str(),
-        stderr);
+    printNote(fmt::format("splat: {} of {} views{}\n", Drawn, Views, left()));
   }
 
   std::size_t Views, Drawn = 0;
@@ -74,7 +70,7 @@ std::function<void(std::string_view)> progress() {
   if (Hidden || !canOverwrite())
     return {};
   return [](std::string_view Stage) {
-    std::fputs(fmt::format("\r\033[Ksplat: {} ...", Stage).c_str(), stderr);
+    showStatus(fmt::format("splat: {} ...", Stage));
   };
 }
 
@@ -84,11 +80,6 @@ std::function<void(std::string_view)> progressOf(std::size_t Views) {
   return [P = std::make_shared<ViewProgress>(Views)](std::string_view Stage) {
     P->enter(Stage);
   };
-}
-
-void endProgress() {
-  if (!Hidden && canOverwrite())
-    std::fputs("\r\033[K", stderr);
 }
 
 } // namespace vorion::splat

@@ -11,15 +11,12 @@ namespace vorion::splat {
 void hideProgress();
 bool isProgressHidden();
 
-/// A line on a terminal that says what is going on; nothing elsewhere.
+/// A status line (StatusLine.h) that says what is going on.
 std::function<void(std::string_view)> progress();
 
 /// The same of a run that draws \p Views, with a bar of those that are drawn
 /// and the time that is left; elsewhere a line now and then. It is told the
 /// stages of each view.
 std::function<void(std::string_view)> progressOf(std::size_t Views);
-
-/// Clears that line.
-void endProgress();
 
 } // namespace vorion::splat

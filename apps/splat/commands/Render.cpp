@@ -27,6 +27,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
+#include "vorion/support/StatusLine.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -234,7 +235,7 @@ Expected<Success> checkWholeTime(const RenderArguments &A, const PictureJob &J,
 Expected<Success> renderOne(const RenderArguments &A, const PictureJob &J,
                             const Camera &C, const HeatMapFiles *Map) {
   const auto R = drawPicture(J, C);
-  endProgress();
+  clearStatus();
   if (!R) {
     showBuildLog(J.Launch);
     return R.error();
@@ -284,7 +285,7 @@ Expected<Success> renderAll(const RenderArguments &A, const PictureJob &J,
                             const std::vector<Camera> &Cameras) {
   const auto R = renderSequence(J.Launch, J.Plan, J.Input.Gaussians, Cameras,
                                 J.Options, A.Overlap);
-  endProgress();
+  clearStatus();
   if (!R) {
     showBuildLog(J.Launch);
     return R.error();
@@ -364,7 +365,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   if (A.Explain == "measure") {
     const auto Costs = measureEffects(Open, A.KernelFolder, A.Request, Inputs,
                                       Cameras->front(), progress());
-    endProgress();
+    clearStatus();
     if (!Costs)
       return Costs.error();
     Measured = toString(*Costs);

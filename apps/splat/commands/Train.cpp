@@ -22,10 +22,10 @@
 #include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
+#include "vorion/support/StatusLine.h"
 #include "vorion/support/Terminal.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -58,23 +58,18 @@ void showProgress(const TrainProgress &P) {
   if (!Terminal && R.Iteration % Every != 0 && R.Iteration != 1)
     return;
   const std::string Line = fmt::format(
-      "{}iteration {}/{}: loss {:.5f}, {}, {:.2f} it/s of wall "
-      "time{}{}{}",
-      Terminal ? "\r\033[K" : "", R.Iteration, P.Last, R.Loss.Value,
+      "iteration {}/{}: loss {:.5f}{}, {}, {:.2f} it/s of wall time{}",
+      R.Iteration, P.Last, R.Loss.Value,
+      timeLeftText(P.Seconds - P.FirstSeconds, R.Iteration - P.First - 1,
+                   P.Last - P.First - 1),
       counted(R.Gaussians, "Gaussian"), (R.Iteration - P.First) / P.Seconds,
       P.MachineRate
           ? fmt::format(", {:.3f} of the machine's clock", *P.MachineRate)
-          : "",
-      timeLeftText(P.Seconds - P.FirstSeconds, R.Iteration - P.First - 1,
-                   P.Last - P.First - 1),
-      Terminal ? "" : "\n");
-  // Not printNote(), which would escape what clears the line.
-  std::fputs(Line.c_str(), stderr);
-}
-
-void endTrainProgress() {
-  if (canOverwrite() && !isProgressHidden())
-    printNote("\n");
+          : "");
+  if (Terminal)
+    showStatus(Line);
+  else
+    printNote(Line + "\n");
 }
 
 /// The losses in so many parts of the run, as means.
@@ -271,7 +266,7 @@ Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
        .OpenDevice = [&] { return openClocked(A, Machine, *Energy); },
        .ShowBuildLog = showBuildLog,
        .Progress = showProgress,
-       .EndProgress = endTrainProgress,
+       .EndProgress = keepStatus,
        .Note =
            [](std::string_view Line) { printNote(std::string(Line) + "\n"); }});
   if (!Out)

@@ -11,6 +11,7 @@
 #include "ClDiagnostics.h"
 
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/HelpText.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/TemporaryFolder.h"
 #include "vorion/support/Tool.h"
@@ -324,7 +325,7 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
 
 int run(int Argc, char **Argv) {
   if (Argc == 2 && !std::strcmp(Argv[1], "--help")) {
-    printOut("{}{}\n", Usage, ExitCodeHelp);
+    printHelp(fmt::format("{}{}\n", Usage, ExitCodeHelp));
     return 0;
   }
   if (Argc == 2 && !std::strcmp(Argv[1], "--version")) {

@@ -1,21 +1,30 @@
 #!/usr/bin/env python3
 """terminal.py FOLDER: what splat writes to standard error on terminals and elsewhere."""
 
+import fcntl
 import os
 import pty
 import re
+import signal
+import struct
 import subprocess
 import sys
+import termios
 
 KINDS = (("terminal", {"TERM": "xterm"}, True), ("terminal without colour", {"TERM": "xterm", "NO_COLOR": "1"}, True),
          ("dumb terminal", {"TERM": "dumb"}, True), ("terminal of no kind", {}, True), ("pipe", {"TERM": "xterm"}, False))
 
 
-def said(command, variables, on_terminal):
-    """The bytes of standard error; a terminal's own ends of lines are as a program wrote them."""
+def said(command, variables, on_terminal, columns=0, until=None, stream="stderr"):
+    """The bytes of standard error; a terminal's own ends of lines are as a program wrote them. The program gets an
+    interrupt once it has said `until`."""
     reader, writer = pty.openpty() if on_terminal else os.pipe()
-    environment = {name: value for name, value in os.environ.items() if name not in ("TERM", "NO_COLOR")} | variables
-    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=writer, env=environment)
+    if columns:
+        fcntl.ioctl(writer, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+    environment = {name: value for name, value in os.environ.items() if name not in ("TERM", "NO_COLOR", "COLUMNS")} | variables
+    streams = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, stream: writer}
+    # A program in the background ignores interrupts, as lit's are.
+    child = subprocess.Popen(command, env=environment, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL), **streams)
     os.close(writer)
     text = b""
     while True:
@@ -26,6 +35,9 @@ def said(command, variables, on_terminal):
         if not part:
             break
         text += part
+        if until and until in text:
+            child.send_signal(signal.SIGINT)
+            until = None
     child.wait()
     os.close(reader)
     return text.replace(b"\r\n", b"\n")
@@ -56,3 +68,28 @@ for name, variables, on_terminal in KINDS:
     beyond = ", one too many" if b"view 4 of 3" in text else ""
     print(f"views: {name} {kind(text)}, {left}{beyond}")
 print("quiet:", kind(said([*render, "--quiet"], {"TERM": "xterm"}, True)))
+
+# A line is written over in a window of any width, and is the last but for its end.
+terminal = {"TERM": "xterm"}
+
+
+def train(iterations):
+    return ["splat", "train", capture, "-o", os.path.join(folder, f"{iterations}.ply"), "--iterations", str(iterations)]
+
+
+for columns in (20, 80, 200):
+    for what, command in (("training", train(columns)), ("views", render)):
+        lines = said(command, terminal, True, columns).split(b"\r\x1b[K")
+        widest = max(len(line.rstrip(b"\n")) for line in lines)
+        whole = all(b"\n" not in line for line in lines[:-1]) and lines[-1].count(b"\n") <= 1
+        print(f"{columns} columns: {what}:", "one line" if len(lines) > 9 and widest < columns and whole else lines)
+# After an interrupt, the shell's prompt has a line of its own.
+long = ["splat", "render", os.path.join(folder, "demo.ply"), "--cameras", os.path.join(folder, "demo.json"), "--path", "simt",
+        "-o", os.path.join(folder, "demo.pfm")]
+for what, command, until in (("training", train(100000), b"iteration 2/"), ("views", long, b"splat: ")):
+    print(f"interrupt: {what}:", said(command, terminal, True, until=until)[-1:])
+for columns in (20, 40, 80):
+    page = said(["splat", "render", "--help"], terminal, True, columns, stream="stdout").splitlines()
+    print(f"help: {columns} columns:", "fits" if max(map(len, page)) <= columns else max(page, key=len))
+narrow = said(["splat", "render", "--help"], {"COLUMNS": "30"}, False, stream="stdout").splitlines()
+print("help: COLUMNS:", "fits" if max(map(len, narrow)) <= 30 else max(narrow, key=len))

@@ -1,17 +1,22 @@
-/// What standard error can show.
+/// What terminals can show.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace vorion {
 
-/// Whether it is a terminal that clears and overwrites a line: not if TERM is
-/// dumb or missing.
+/// Whether standard error is a terminal that clears and overwrites a line: not
+/// if TERM is dumb or missing.
 bool canOverwrite();
 
 /// Whether it shows colours, and nobody asked for none (https://no-color.org).
 bool canColour();
+
+/// The columns of the terminal \p File, a descriptor; nothing for what is none
+/// or does not say. A window's size changes: ask each time.
+std::optional<std::size_t> columnsOf(int File);
 
 /// A bar of fixed width of which the share \p Done of \p All is full:
 /// "[====      ]".
