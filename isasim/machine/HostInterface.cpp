@@ -1,5 +1,6 @@
 #include "machine/HostInterface.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -60,11 +61,28 @@ void HostInterface::execute(uint64_t Command) {
   const uint64_t Payload = Command & PayloadMask;
   if (Device == ConsoleDevice &&
       (Command >> CommandShift & 0xFF) == ConsoleWrite)
-    Print(static_cast<char>(Payload));
+    Print(std::string_view(std::array{static_cast<char>(Payload)}.data(), 1));
   else if (Device == SystemDevice && (Payload & 1))
     Exit = static_cast<uint32_t>(Payload >> 1);
   else if (Device == SystemDevice)
     callSystem(static_cast<uint32_t>(Payload));
+}
+
+uint64_t HostInterface::print(uint32_t Address, uint64_t Bytes) {
+  uint64_t Printed = 0;
+  while (Printed != Bytes && !Budget.mustStop()) {
+    const auto From = static_cast<uint32_t>(Address + Printed);
+    uint64_t Piece =
+        std::min<uint64_t>(Bytes - Printed, HostBudget::ConsoleBytes);
+    // The last that is mapped is found by halves.
+    while (Piece != 0 && !Storage.shared(From, Piece))
+      Piece /= 2;
+    if (Piece == 0)
+      break;
+    Print({reinterpret_cast<const char *>(Storage.shared(From, Piece)), Piece});
+    Printed += Piece;
+  }
+  return Printed;
 }
 
 void HostInterface::callSystem(uint32_t Address) {
@@ -73,14 +91,7 @@ void HostInterface::callSystem(uint32_t Address) {
     Call[N] = read(Address + 8 * N).value_or(0);
   uint64_t Result = NoSuchCall;
   if (Call[0] == CallWrite) {
-    Result = 0;
-    for (; Result != Call[3]; ++Result) {
-      const std::byte *At =
-          Storage.shared(static_cast<uint32_t>(Call[2] + Result), 1);
-      if (!At)
-        break;
-      Print(static_cast<char>(*At));
-    }
+    Result = print(static_cast<uint32_t>(Call[2]), Call[3]);
   } else if (Call[0] == CallExit) {
     Exit = static_cast<uint32_t>(Call[1]);
   }

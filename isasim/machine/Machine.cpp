@@ -89,10 +89,8 @@ RunResult Machine::run(uint32_t LaunchBlock) {
     R.Report = "no program is loaded\n";
     return R;
   }
-  PImpl->Begin = std::chrono::steady_clock::now();
+  PImpl->Budget.beginRun();
   const std::clock_t CpuBegin = std::clock();
-  PImpl->StopRequested = false;
-  PImpl->Running = true;
   const RasterCounters Before = PImpl->Raster.counters();
   VxLaunch Launch{};
   const bool HasLaunch = LaunchBlock != 0;
@@ -112,20 +110,16 @@ RunResult Machine::run(uint32_t LaunchBlock) {
     PImpl->atSyncPoint();
     PImpl->takeTime();
   } while (!PImpl->decideEnd(R));
-  PImpl->Running = false;
+  PImpl->Budget.endRun();
   PImpl->flushConsole(true);
   PImpl->count(R);
-  if (PImpl->isClocked()) {
-    TimeReport Took = PImpl->Time->end();
-    if (PImpl->Mode == Clocking::On)
-      R.Time = std::move(Took);
-  }
+  PImpl->endTime(R);
   if (R.End == Outcome::Done && R.ExitCode != 0)
     R.End = Outcome::GuestFailed;
   R.Raster = PImpl->Raster.counters() - Before;
   if (R.End != Outcome::Done && R.End != Outcome::GuestFailed)
     PImpl->resetRasterizers();
-  R.HostSeconds = PImpl->secondsSoFar();
+  R.HostSeconds = PImpl->Budget.secondsSoFar();
   R.HostCpuSeconds =
       static_cast<double>(std::clock() - CpuBegin) / CLOCKS_PER_SEC;
   PImpl->Watcher.tell([&](Observer &O) { O.runEnds(R); });
@@ -150,13 +144,13 @@ void Machine::setTimeObservers(std::vector<TimeObserver *> Observers) {
   PImpl->tellTimeObservers();
 }
 
-void Machine::setWatchdog(double Seconds) { PImpl->WatchdogSeconds = Seconds; }
-
-void Machine::requestStop() {
-  PImpl->StopRequested.store(true, std::memory_order_relaxed);
+void Machine::setWatchdog(double Seconds) {
+  PImpl->Budget.setWatchdog(Seconds);
 }
 
-bool Machine::mustStop() const { return PImpl->mustStop(); }
+void Machine::requestStop() { PImpl->Budget.requestStop(); }
+
+bool Machine::mustStop() const { return PImpl->Budget.mustStop(); }
 
 void Machine::setClocking(Clocking Of) {
   if (!PImpl->Time || PImpl->Mode == Of)

@@ -4,6 +4,7 @@
 /// functions, Rounds.cpp a run's rounds.
 
 #include "core/Core.h"
+#include "core/HostBudget.h"
 #include "core/Watch.h"
 #include "machine/CodeCache.h"
 #include "machine/HangDetector.h"
@@ -14,8 +15,6 @@
 #include "timing/Clock.h"
 #include "vorion/isasim/Machine.h"
 
-#include <atomic>
-#include <chrono>
 #include <cstdio>
 
 namespace vorion::isasim {
@@ -32,17 +31,27 @@ struct Machine::Impl final : raster::WorkLog {
         Programs(isTranslatorWanted(C.Runs) ? 0 : Translator::UsualCost,
                  unitOf(C.Runs)),
         Pool(C.HostThreads),
-        Raster(Shape, *Storage, [this] { return mustStop(); }),
-        Host(*Storage, [this](char Byte) { Cores[0]->print(Byte); }) {
+        Raster(Shape, *Storage, [this] { return Budget.mustStop(); }),
+        Host(*Storage, Budget,
+             [this](std::string_view Text) { printOfHost(Text); }) {
     for (unsigned Id = 0; Id != Shape.cores(); ++Id)
       Cores.push_back(std::make_unique<Core>(Shape, Id));
     if (Shape.Timing.Enabled)
-      Time = std::make_unique<Clock>(Shape);
+      Time = std::make_unique<Clock>(Shape, Budget);
     chooseLog();
   }
 
   void command(raster::CommandWork &&Work) override;
   void tail(raster::TailWork &&Work) override;
+  bool wantsFetches() const override { return isClocked(); }
+  void part(const raster::CommandWork &Begun,
+            std::vector<raster::GaussianWork> &&Fetched) override;
+  bool hasRoom(unsigned Core) const override {
+    return !isClocked() || Time->hasRoom(Core);
+  }
+  bool hasRoomForTail(unsigned Core) const override {
+    return !isClocked() || Time->hasRoomForTail(Core);
+  }
   unsigned blockTests() const override {
     return isClocked() ? Shape.Timing.Raster.SkipBlocks : 0;
   }
@@ -58,34 +67,27 @@ struct Machine::Impl final : raster::WorkLog {
   void atSyncPoint();
   void executeParked(Core &C, WarpState &S);
   void arriveGlobally(WarpState &S);
+  void runRasterizers();
   void flushConsole(bool All);
+  void flushConsole(Core &Of, bool All);
+  void printOfHost(std::string_view Text);
   bool findTrap(RunResult &R);
   bool decideEnd(RunResult &R);
   void count(RunResult &R) const;
   bool isObserved() const { return !Watcher.Observers.empty(); }
-  double secondsSoFar() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                         Begin)
-        .count();
-  }
-  bool stopRequested() const {
-    return StopRequested.load(std::memory_order_relaxed);
-  }
-  bool watchdogExpired() const {
-    return WatchdogSeconds > 0 && secondsSoFar() > WatchdogSeconds;
-  }
-  bool mustStop() const {
-    return Running && (stopRequested() || watchdogExpired());
-  }
   uint64_t retired() const;
   const ExecTable &exec() const;
   void chooseLog();
   void resetRasterizers();
+  void publishTime();
   void takeTime();
+  bool makeRoomInTime();
+  void endTime(RunResult &R);
   bool isClocked() const { return Time && Mode != Clocking::Off; }
   void tellTimeObservers();
 
   const Config Shape;
+  HostBudget Budget;
   std::unique_ptr<Memory> Storage;
   std::shared_ptr<const Image> Program;
   CodeCache Programs;
@@ -96,10 +98,6 @@ struct Machine::Impl final : raster::WorkLog {
   HostInterface Host;
   HangDetector Hang;
   Watch Watcher;
-  double WatchdogSeconds = 0;
-  std::chrono::steady_clock::time_point Begin; ///< of the run
-  std::atomic<bool> StopRequested = false;
-  bool Running = false;        ///< between the run's beginning and its end
   std::unique_ptr<Clock> Time; ///< if Shape.Timing.Enabled
   Clocking Mode = Clocking::On;
   std::vector<TimeObserver *> TimeObservers;

@@ -117,22 +117,29 @@ bool RasterUnits::canRun() const {
 }
 
 void RasterUnits::runUnit(unsigned N) {
+  while (Units[N]->step() && Units[N]->hasRoomInLog()) {
+  }
+}
+
+void RasterUnits::finishUnit(unsigned N) {
   while (Units[N]->step()) {
   }
 }
 
-bool RasterUnits::handOver() {
-  bool Any = false;
+void RasterUnits::handOver() {
   for (unsigned Socket = 0; Socket != Shape.sockets(); ++Socket) {
     const auto Handed = Units[Socket]->takeHandOvers();
     PixelUnits[Socket / Shape.SocketsPerCluster]->accept(Handed);
-    Any |= !Handed.empty();
   }
-  return Any;
+}
+
+bool RasterUnits::canRunPixelUnits() const {
+  return std::any_of(PixelUnits.begin(), PixelUnits.end(),
+                     [](const auto &U) { return U->canStep(); });
 }
 
 void RasterUnits::runPixelUnit(unsigned N) {
-  while (PixelUnits[N]->step()) {
+  while (PixelUnits[N]->step() && PixelUnits[N]->hasRoomInLog()) {
   }
 }
 
@@ -145,7 +152,7 @@ std::optional<uint32_t> RasterUnits::hostRead(unsigned Core, unsigned Number) {
     return std::nullopt;
   const uint32_t Value = Agents[Core]->read(C, 0);
   if (C == raster::Csr::GradNext)
-    runUnit(Shape.socketOf(Core));
+    finishUnit(Shape.socketOf(Core));
   return Value;
 }
 
@@ -160,9 +167,11 @@ bool RasterUnits::hostWrite(unsigned Core, unsigned Number, uint32_t Value) {
   Lanes[0] = Value;
   Agents[Core]->write(static_cast<raster::Csr>(Number),
                       std::span(Lanes).first(Shape.LanesPerWarp), 1);
-  runUnit(Shape.socketOf(Core));
-  if (handOver())
-    runPixelUnit(Shape.clusterOf(Core));
+  finishUnit(Shape.socketOf(Core));
+  handOver();
+  const auto &Pixels = PixelUnits[Shape.clusterOf(Core)];
+  while (Pixels->step()) {
+  }
   return true;
 }
 

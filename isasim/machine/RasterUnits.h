@@ -36,15 +36,16 @@ public:
   }
   /// Whether a rasterizer can go on with a command.
   bool canRun() const;
-  /// Executes all commands of rasterizer \p N. Different rasterizers may run
-  /// at the same time.
+  /// Executes commands of rasterizer \p N: all, or until the log has no room.
+  /// Different rasterizers may run at the same time.
   void runUnit(unsigned N);
 
   /// Gives the pixel units what the rasterizers handed over, in the order of
-  /// sockets; false if that was nothing.
-  bool handOver();
-  /// Executes all that pixel unit \p N has been given. Different ones may run
-  /// at the same time.
+  /// sockets.
+  void handOver();
+  bool canRunPixelUnits() const;
+  /// Executes what pixel unit \p N has been given: all, or until the log has no
+  /// room. Different ones may run at the same time.
   void runPixelUnit(unsigned N);
 
   std::optional<uint32_t> hostRead(unsigned Core, unsigned Number);
@@ -63,6 +64,9 @@ public:
   RasterCounters counters() const;
 
 private:
+  /// As runUnit(), whatever the log says.
+  void finishUnit(unsigned N);
+
   struct GlobalMemory final : raster::RasterMemory {
     GlobalMemory(Memory &StorageIn, std::function<bool()> IsOverIn)
         : Storage(StorageIn), Over(std::move(IsOverIn)) {}

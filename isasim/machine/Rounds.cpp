@@ -19,9 +19,6 @@ namespace {
 /// host thread costs more than it saves.
 constexpr uint64_t ShortRound = 20000;
 
-/// A core's console text goes out without its line's end when there is more.
-constexpr size_t LongestLine = 64 << 10;
-
 // What the clock has to know of parked instructions. For an atomic before it is
 // executed, since its result may overwrite its addresses.
 
@@ -99,15 +96,23 @@ void Machine::Impl::chooseLog() {
 
 // Observers follow runs, not what the driver does between them.
 
+void Machine::Impl::part(const raster::CommandWork &Begun,
+                         std::vector<raster::GaussianWork> &&Fetched) {
+  Time->expectPart(Begun, std::move(Fetched));
+}
+
 void Machine::Impl::command(raster::CommandWork &&Work) {
-  if (Running)
+  if (Budget.isRunning())
     Watcher.tell([&](Observer &O) { O.rasterCommand(Work); });
-  if (isClocked())
-    Time->expect(std::move(Work));
+  if (!isClocked())
+    return;
+  // Nobody who watches the clock looks at these.
+  Work.Pushed = {};
+  Time->expect(std::move(Work));
 }
 
 void Machine::Impl::tail(raster::TailWork &&Work) {
-  if (Running)
+  if (Budget.isRunning())
     Watcher.tell([&](Observer &O) { O.tail(Work); });
   if (isClocked())
     Time->expect(std::move(Work));
@@ -125,14 +130,42 @@ void Machine::Impl::tellTimeObservers() {
                                             : std::vector<TimeObserver *>());
 }
 
-void Machine::Impl::takeTime() {
-  if (!isClocked())
-    return;
+void Machine::Impl::publishTime() {
   for (const auto &C : Cores)
     Time->setEnded(C->id(), C->endedWarps());
   Time->publish();
+}
+
+void Machine::Impl::takeTime() {
+  if (!isClocked())
+    return;
+  publishTime();
   if (Time->isWatched() && Time->isWorthTaking())
     Time->take();
+}
+
+/// Has the clock go on until it has room for what rasterizers do next. False if
+/// it has.
+bool Machine::Impl::makeRoomInTime() {
+  if (!isClocked() || Time->hasRoom())
+    return false;
+  publishTime();
+  Time->take();
+  return true;
+}
+
+void Machine::Impl::endTime(RunResult &R) {
+  if (!isClocked())
+    return;
+  std::optional<TimeReport> Took = Time->end();
+  const bool IsWhole = Took.has_value();
+  if (Mode == Clocking::On)
+    R.Time = std::move(Took);
+  // The clock was behind the cores, and did not get to the end in time.
+  if (!IsWhole && R.End == Outcome::Done) {
+    R.End = Outcome::LimitReached;
+    R.Report = Budget.reason() + "\n" + warpReport(Cores, Program);
+  }
 }
 
 /// The clock takes what the last round wrote while the cores write the next
@@ -155,7 +188,7 @@ void Machine::Impl::runCores() {
       Time->take();
     else
       Ready[N - Takes]->runRound(Exec, static_cast<uint32_t>(Quantum),
-                                 [this] { return mustStop(); });
+                                 [this] { return Budget.mustStop(); });
   });
   LastRound = retired() - Before;
   if (Present->Translated)
@@ -222,24 +255,44 @@ void Machine::Impl::atSyncPoint() {
   if (!Raster.canRun())
     return;
   Progress = true;
-  Pool.run(Raster.units(), isObserved(),
-           [&](unsigned N) { Raster.runUnit(N); });
-  if (Raster.handOver())
+  runRasterizers();
+}
+
+/// As a whole, whatever the clock has room for: function does not depend on it.
+void Machine::Impl::runRasterizers() {
+  do {
+    Pool.run(Raster.units(), isObserved(),
+             [&](unsigned N) { Raster.runUnit(N); });
+  } while (makeRoomInTime() && Raster.canRun());
+  Raster.handOver();
+  while (Raster.canRunPixelUnits()) {
     Pool.run(Raster.pixelUnits(), isObserved(),
              [&](unsigned N) { Raster.runPixelUnit(N); });
+    makeRoomInTime();
+  }
 }
 
 void Machine::Impl::flushConsole(bool All) {
-  for (const auto &C : Cores) {
-    const size_t Length = All || C->Console.size() > LongestLine
-                              ? C->Console.size()
-                              : C->Console.find_last_of('\n') + 1;
-    if (Length == 0)
-      continue;
-    if (Console)
-      Console(std::string_view(C->Console).substr(0, Length));
-    C->Console.erase(0, Length);
-  }
+  for (const auto &C : Cores)
+    flushConsole(*C, All);
+}
+
+void Machine::Impl::flushConsole(Core &Of, bool All) {
+  const size_t Length = All || Of.Console.size() > HostBudget::ConsoleBytes
+                            ? Of.Console.size()
+                            : Of.Console.find_last_of('\n') + 1;
+  if (Length == 0)
+    return;
+  if (Console)
+    Console(std::string_view(Of.Console).substr(0, Length));
+  Of.Console.erase(0, Length);
+}
+
+/// The host interface prints as the first core.
+void Machine::Impl::printOfHost(std::string_view Text) {
+  Cores[0]->Console += Text;
+  if (Cores[0]->Console.size() > HostBudget::ConsoleBytes)
+    flushConsole(*Cores[0], false);
 }
 
 bool Machine::Impl::findTrap(RunResult &R) {
@@ -279,11 +332,8 @@ bool Machine::Impl::decideEnd(RunResult &R) {
   if (Shape.MaxInstructions && retired() >= Shape.MaxInstructions)
     Limit = fmt::format("{} instructions, as many as may run",
                         Shape.MaxInstructions);
-  else if (stopRequested())
-    Limit = "stopped from outside";
-  else if (watchdogExpired())
-    Limit =
-        fmt::format("watchdog: the run took longer than {} s", WatchdogSeconds);
+  else
+    Limit = Budget.reason();
   if (!Limit.empty()) {
     R.End = Outcome::LimitReached;
     R.Report = Limit + "\n" + warpReport(Cores, Program);

@@ -14,9 +14,9 @@ namespace {
 /// One hand-over in the works.
 class Execution {
 public:
-  /// \p KeepDetails: records and pixels too, for the log.
+  /// \p KeepFetches: records and pixels too, for the log.
   Execution(const HandOver &Next, RasterMemory &Global, TileBuffer &Buffer,
-            const Datapath &Unit, bool KeepDetails);
+            const Datapath &Unit, bool KeepFetches);
 
   /// To be called once.
   TailWork run();
@@ -35,15 +35,15 @@ private:
   RasterMemory &Memory;
   TileBuffer &Tile;
   const Datapath &Lanes;
-  bool KeepsDetails;
+  bool KeepsFetches;
   Tail Record;
   TailWork Work;
   const Job &Task = Work.What;
 };
 
 Execution::Execution(const HandOver &Next, RasterMemory &Global,
-                     TileBuffer &Buffer, const Datapath &Unit, bool KeepDetails)
-    : Memory(Global), Tile(Buffer), Lanes(Unit), KeepsDetails(KeepDetails) {
+                     TileBuffer &Buffer, const Datapath &Unit, bool KeepFetches)
+    : Memory(Global), Tile(Buffer), Lanes(Unit), KeepsFetches(KeepFetches) {
   std::memcpy(&Record, Memory.range(Next.Record, sizeof(Record)),
               sizeof(Record));
   Work.Core = Next.Agent->core();
@@ -93,7 +93,7 @@ void Execution::loadPixels() {
     Tile.T[At] = std::fabs(P.T);
     ++Tile.RowLive[Row];
     ++Tile.Live;
-    if (KeepsDetails)
+    if (KeepsFetches)
       Work.Pixels.push_back(
           {static_cast<uint8_t>(Column), static_cast<uint8_t>(Row), 0});
   });
@@ -109,7 +109,7 @@ uint32_t Execution::blend() {
       return Status;
     Work.Counts.TailBlends +=
         blendFunction(Task, Lanes)(Entry.Record, Task.Blend, Tile).Blends;
-    if (KeepsDetails) {
+    if (KeepsFetches) {
       Work.Records.push_back(Entry.Address);
       if (Tile.Live != OpenBefore || I + 1 == Task.Count)
         keepVisits(I + 1);
@@ -151,13 +151,18 @@ void PixelUnit::accept(std::span<const HandOver> Handed) {
   Queue.insert(Queue.end(), Handed.begin(), Handed.end());
 }
 
+bool PixelUnit::hasRoomInLog() const {
+  return !Log || !canStep() || Log->hasRoomForTail(Queue.front().Agent->core());
+}
+
 bool PixelUnit::step() {
   if (Queue.empty())
     return false;
   const HandOver Next = Queue.front();
   Queue.pop_front();
   const DefaultFloatEnvironment Environment;
-  TailWork Done = Execution(Next, Memory, *Tile, *Lanes, Log != nullptr).run();
+  const bool KeepFetches = Log && Log->wantsFetches();
+  TailWork Done = Execution(Next, Memory, *Tile, *Lanes, KeepFetches).run();
   Next.Agent->completeTail(Done.Status, Done.Counts);
   if (Log)
     Log->tail(std::move(Done));

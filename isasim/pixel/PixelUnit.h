@@ -40,6 +40,9 @@ public:
 
   /// Executes the next hand-over; false if there is none.
   bool step();
+  bool canStep() const { return !Queue.empty(); }
+  /// Whether the log has room for what the next step() tells it.
+  bool hasRoomInLog() const;
 
 private:
   raster::RasterMemory &Memory;

@@ -7,12 +7,13 @@ namespace vorion::raster {
 
 BackwardRun::BackwardRun(const RasterAgent &Agent, RasterMemory &Global,
                          BackwardBuffer &Buffer, const BackwardDatapath &Lanes,
-                         bool KeepDetails)
+                         const WorkLog *Log)
     : Work(beginCommand(Agent, Global)), Memory(Global), Tile(Buffer),
       Unit(Lanes), Options(Task.Backward), List(Task, Memory),
-      KeepsDetails(KeepDetails) {
+      KeepsFetches(Log && Log->wantsFetches()) {
   if (!Work.hasFailed())
     load();
+  Work.Entries = Left;
 }
 
 /// Fills the pixel buffer. The list is gone through from the last entry that
@@ -55,7 +56,7 @@ uint32_t BackwardRun::through(uint32_t Entry, GradientSums &Sums) {
   Work.Counts.Clipped += Done.Clipped;
   Work.Counts.Fragments += Done.Fragments;
   Work.Counts.Blends += Done.Blends;
-  if (KeepsDetails)
+  if (KeepsFetches)
     Work.Gaussians.push_back(
         {Input.Address, Done.X, Done.Y, Done.Width, Done.Height,
          static_cast<uint16_t>(Done.Fragments), Input.Intersects});
@@ -63,7 +64,7 @@ uint32_t BackwardRun::through(uint32_t Entry, GradientSums &Sums) {
 }
 
 std::optional<GradientBatch> BackwardRun::next() {
-  if (Work.hasFailed() || Left == 0)
+  if (isDone())
     return std::nullopt;
   GradientBatch Batch;
   Batch.Number = (Left - 1) / VR_GRAD_LANES;

@@ -14,16 +14,24 @@ namespace vorion::raster {
 class BackwardRun {
 public:
   /// The oldest command of \p Agent. Keeps references to the others, which must
-  /// outlive it. \p KeepDetails: the Gaussians too, for the log.
+  /// outlive it. \p Log: who wants to know what is fetched; nullptr for nobody.
   BackwardRun(const RasterAgent &Agent, RasterMemory &Memory,
               BackwardBuffer &Tile, const BackwardDatapath &Unit,
-              bool KeepDetails);
+              const WorkLog *Log);
 
-  /// The next batch, or nothing once there is no other or the command has
-  /// failed.
+  /// The next batch, or nothing if there is none or the command fails. Not
+  /// once isDone().
   std::optional<GradientBatch> next();
+  /// Whether there is no other batch.
+  bool isDone() const { return Work.hasFailed() || Left == 0; }
 
-  /// What has been done, once next() has given nothing.
+  /// What is known of a command that is not done.
+  const CommandWork &begun() const { return Work; }
+  /// What next() has fetched.
+  std::vector<GaussianWork> takeFetched() {
+    return std::exchange(Work.Gaussians, {});
+  }
+  /// What has been done, once isDone().
   CommandWork takeWork() { return std::move(Work); }
 
 private:
@@ -38,7 +46,7 @@ private:
   BackwardOptions Options;
   GaussianList List;
   uint32_t Left = 0; ///< entries in front of what has been handed over
-  bool KeepsDetails;
+  bool KeepsFetches;
 };
 
 } // namespace vorion::raster

@@ -200,6 +200,29 @@ TEST_F(BackwardTest, HaltsUntilTheCoreTakesABatch) {
   EXPECT_FALSE(Agent.isBusy());
 }
 
+TEST_F(BackwardTest, ComputesOneBatchAheadOfThoseThatWait) {
+  const auto Scene =
+      std::vector(16 * 8, flatGaussian(32, 32, 100, 100, 1.0F / 128));
+  forward(Scene, {.Width = 64, .Height = 32});
+  putUpstream({1, 2, 3, 0});
+  KeptWork Log;
+  Unit.setLog(&Log);
+  startBackward();
+  EXPECT_EQ(Log.Fetched, 16U * 3);
+  EXPECT_EQ(Log.Entries, 16U * 8);
+  takeBatch();
+  EXPECT_EQ(Log.Fetched, 16U * 4);
+  EXPECT_TRUE(Log.Commands.empty());
+  while (Log.Commands.empty())
+    takeBatch();
+  EXPECT_EQ(Log.Fetched, 16U * 8);
+  EXPECT_TRUE(Agent.isBusy()) << "three batches and the end are left";
+  for (unsigned Left = 3; Left != 0; --Left)
+    EXPECT_NE(takeBatch(), 0U);
+  EXPECT_EQ(takeBatch(), 0U);
+  Unit.setLog(nullptr);
+}
+
 TEST_F(BackwardTest, CommandsOfAnAgentHandOverOneAfterTheOther) {
   const auto Scene = thin(3);
   forward(Scene, Tall);

@@ -70,8 +70,6 @@ const std::byte *GaussianList::record(uint32_t Entry) const {
 }
 
 uint32_t GaussianList::fetch(uint32_t I, Fetched &Out) const {
-  // Of the largest tiles without an end: milliseconds.
-  constexpr uint32_t LongestStretch = 4096;
   if (I % LongestStretch == 0 && Memory.isOver())
     return VR_UNMAPPED;
   // The host's caches do not see a list's records coming: a third of the time

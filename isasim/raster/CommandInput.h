@@ -43,6 +43,10 @@ std::byte *outputRow(const Job &J, RasterMemory &Memory, unsigned Row);
 std::byte *lastRow(const Job &J, RasterMemory &Memory, unsigned Row);
 std::byte *upstreamRow(const Job &J, RasterMemory &Memory, unsigned Row);
 
+/// Entries of a list between two looks at whether the run is over or the log is
+/// full: of the largest tiles milliseconds.
+inline constexpr uint32_t LongestStretch = 4096;
+
 /// One entry of a list, and the record that it names.
 struct Fetched {
   Gaussian Record;

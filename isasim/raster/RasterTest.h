@@ -118,6 +118,26 @@ protected:
   }
 };
 
+/// A log that keeps what it is told, as the clock does.
+struct KeptWork : WorkLog {
+  void command(CommandWork &&Work) override {
+    Fetched += Work.Gaussians.size();
+    Commands.push_back(std::move(Work));
+  }
+  void tail(TailWork &&) override {}
+  bool wantsFetches() const override { return true; }
+  void part(const CommandWork &Begun,
+            std::vector<GaussianWork> &&Gaussians) override {
+    Entries = Begun.Entries;
+    Fetched += Gaussians.size();
+    ++Parts;
+  }
+
+  std::vector<CommandWork> Commands;
+  std::size_t Fetched = 0, Parts = 0;
+  uint32_t Entries = 0; ///< of the command that is in the works
+};
+
 inline constexpr float Inf = std::numeric_limits<float>::infinity();
 inline constexpr float NotANumber = std::numeric_limits<float>::quiet_NaN();
 

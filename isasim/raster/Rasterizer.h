@@ -2,21 +2,17 @@
 /// architecture"; docs/rasterizer.md).
 #pragma once
 
+#include "raster/BackwardRun.h"
 #include "raster/RasterAgent.h"
 #include "raster/RasterMemory.h"
+#include "raster/TileRun.h"
 #include "raster/WorkLog.h"
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace vorion::raster {
-
-struct BackwardBuffer;
-struct BackwardDatapath;
-struct Datapath;
-struct TileBuffer;
 
 /// Serves the Raster Agents of its socket round-robin, one tile command at a
 /// time. A backward command halts it while its agent has no room for a batch.
@@ -31,11 +27,13 @@ public:
   Rasterizer(RasterMemory &Memory, std::vector<RasterAgent *> Agents);
   ~Rasterizer();
 
-  /// Executes the next command, or goes on with a backward one to its next
-  /// batch; false if canStep() is.
+  /// Goes on with the command, or begins the next one: to the next batch of a
+  /// backward one, of others by a stretch of the list. False if canStep() is.
   bool step();
   /// Whether there is a command, and no agent has to take a batch first.
   bool canStep() const;
+  /// Whether the log has room for what the next step() tells it.
+  bool hasRoomInLog() const;
 
   /// \p Receiver is told of every command; nullptr for nobody.
   void setLog(WorkLog *Receiver) { Log = Receiver; }
@@ -63,16 +61,30 @@ public:
   void finish(const RasterAgent &Agent);
 
 private:
-  /// A backward command that has been executed, and what of it waits for room
-  /// in its agent.
+  /// A command that blends, and its agent's place.
+  struct Blended {
+    template <typename... Rest>
+    Blended(std::size_t Turn, Rest &&...Of)
+        : Turn(Turn), Run(std::forward<Rest>(Of)...) {}
+    std::size_t Turn;
+    TileRun Run;
+  };
+  /// A backward command, and the batch that waits for room in its agent.
   struct Halted {
-    std::size_t Turn; ///< the agent's
-    std::deque<GradientBatch> Batches;
-    uint32_t Status;
-    Counters Work;
+    template <typename... Rest>
+    Halted(std::size_t Turn, Rest &&...Of)
+        : Turn(Turn), Run(std::forward<Rest>(Of)...) {}
+    std::size_t Turn;
+    BackwardRun Run;
+    std::optional<GradientBatch> Next; ///< none: the command's end waits
+    /// Once all has been computed.
+    uint32_t Status = VR_OK;
+    Counters Counts;
   };
   void startBackward(std::size_t Turn);
+  void nextBatch();
   void stepBackward();
+  void stepBlending();
 
   RasterMemory &Memory;
   std::vector<RasterAgent *> Agents;
@@ -83,6 +95,7 @@ private:
   std::unique_ptr<BackwardBuffer> BackwardTile; ///< made when first needed
   const BackwardDatapath *BackwardLanes;
   std::optional<Halted> Backward;
+  std::optional<Blended> Blending;
   WorkLog *Log = nullptr;
 };
 

@@ -334,5 +334,29 @@ TEST_F(RasterizerTest, FloatEnvironmentOfTheCallerDoesNotMatter) {
   EXPECT_EQ(pixels(), Right);
 }
 
+TEST_F(RasterizerTest, ALongListIsGoneThroughInStretches) {
+  // One record 20,000 times, of which none closes a pixel.
+  constexpr uint32_t Count = 20000;
+  configure(only(flatGaussian(8, 8, 100, 100, 1.0F / 128)),
+            {.Cutoff = 0, .Width = 1, .Height = 1});
+  Memory.put(List, std::span<const uint32_t>(std::vector<uint32_t>(Count)));
+  set(Csr::Count, Count);
+  ASSERT_EQ(start(), VR_OK);
+  const std::vector<Pixel> Alone = pixels(1, 1);
+  KeptWork Log;
+  Unit.setLog(&Log);
+  set(Csr::Start, 1U);
+  unsigned Steps = 0;
+  for (; Unit.step(); ++Steps)
+    EXPECT_LE(Log.Fetched, (Steps + 1) * 4096U);
+  EXPECT_EQ(Steps, 5U);
+  EXPECT_EQ(Log.Parts, 4U);
+  EXPECT_EQ(Log.Fetched, Count);
+  ASSERT_EQ(Log.Commands.size(), 1U);
+  EXPECT_EQ(Log.Commands[0].Counts.Gaussians, Count);
+  EXPECT_EQ(pixels(1, 1), Alone);
+  Unit.setLog(nullptr);
+}
+
 } // namespace
 } // namespace vorion::raster

@@ -29,7 +29,11 @@ struct CommandWork {
   bool HandedOver = false; ///< the pixel unit goes on
   uint32_t Saturated = 0;  ///< pixels of the tile that took no more
   Counters Counts;
-  /// In the order of the fetches, up to one that cannot be blended.
+  /// Entries of its list that a backward command goes through, from this one
+  /// down to the first.
+  uint32_t Entries = 0;
+  /// In the order of the fetches, up to one that cannot be blended; without
+  /// those of earlier parts. Empty where nobody wants them.
   std::vector<GaussianWork> Gaussians;
   std::vector<Gaussian> Pushed; ///< what the command took
 
@@ -54,13 +58,26 @@ struct TailWork {
 };
 
 /// Receives what has been executed, on the thread that executed it: one at a
-/// time for each rasterizer and each pixel unit. A backward command is told of
-/// before its batches are taken.
+/// time for each rasterizer and each pixel unit.
 class WorkLog {
 public:
   virtual ~WorkLog() = default;
+  /// The command has been executed. Of a backward one, the last batch may not
+  /// have been taken.
   virtual void command(CommandWork &&Work) = 0;
   virtual void tail(TailWork &&Work) = 0;
+
+  /// Whether the fetches are wanted: Gaussians, Records and Pixels.
+  virtual bool wantsFetches() const { return false; }
+  /// Only then: what has been fetched of a command, of which there is more to
+  /// come. Of \p Begun nothing is known but Core, What and Entries.
+  virtual void part(const CommandWork & /*Begun*/,
+                    std::vector<GaussianWork> && /*Fetched*/) {}
+  /// Whether the rasterizer, or the pixel unit, of core \p Core may go on.
+  /// Otherwise it does after the log has made room.
+  virtual bool hasRoom(unsigned /*Core*/) const { return true; }
+  virtual bool hasRoomForTail(unsigned /*Core*/) const { return true; }
+
   /// Tests of blocks (BlockTest) whose results are wanted.
   virtual unsigned blockTests() const { return 0; }
 };

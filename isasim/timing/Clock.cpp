@@ -8,15 +8,18 @@ namespace vorion::isasim {
 
 namespace {
 /// Records that a core's trace may hold before the others stop waiting for one
-/// whose trace is used up: 8 MiB, many quanta.
+/// whose trace is used up: many quanta.
 constexpr size_t LongestBacklog = 1 << 20;
 /// Fewer than this in all traces are left until the next sync point.
 constexpr size_t FewestTaken = 1 << 12;
+/// Steps between two looks at whether the time is over: milliseconds.
+constexpr unsigned LongestStretch = 1 << 14;
+
 } // namespace
 
-Clock::Clock(const Config &C)
-    : Shape(C), Timing(C.Timing), Name(nameOf(C)), Memory(Timing, C.Clusters),
-      Barriers(C.Barriers) {
+Clock::Clock(const Config &C, const HostBudget &BudgetIn)
+    : Shape(C), Budget(BudgetIn), Timing(C.Timing), Name(nameOf(C)),
+      Memory(Timing, C.Clusters), Barriers(C.Barriers) {
   for (unsigned N = 0; N != C.cores(); ++N) {
     std::vector<TraceBuffer *> OfCore;
     for (unsigned W = 0; W != C.WarpsPerCore; ++W) {
@@ -31,10 +34,12 @@ Clock::Clock(const Config &C)
   for (unsigned N = 0; N != C.sockets(); ++N)
     Rasters.emplace_back(Timing,
                          MemoryPort{N / C.SocketsPerCluster, placeOfRaster(N)},
-                         C.CoresPerSocket, C.Raster.QueueDepth);
+                         C.CoresPerSocket, C.Raster.QueueDepth,
+                         HostBudget::FetchBytes / 2 / C.sockets());
   for (unsigned N = 0; N != C.Clusters; ++N)
     Pixels.emplace_back(Timing, MemoryPort{N, placeOfPixels(N)},
-                        C.coresPerCluster());
+                        C.coresPerCluster(),
+                        HostBudget::FetchBytes / 2 / C.Clusters);
   for (unsigned N = 0; N != C.sockets(); ++N)
     Codes.emplace_back(Timing.Socket,
                        MemoryPort{N / C.SocketsPerCluster, placeOfCode(N)});
@@ -52,6 +57,26 @@ void Clock::expect(raster::TailWork &&Work) {
   const unsigned Core = Work.Core;
   Pixels[Shape.clusterOf(Core)].expect(Core % Shape.coresPerCluster(),
                                        std::move(Work));
+}
+
+void Clock::expectPart(const raster::CommandWork &Of,
+                       std::vector<raster::GaussianWork> &&Fetched) {
+  Rasters[Shape.socketOf(Of.Core)].expectPart(Of.Core % Shape.CoresPerSocket,
+                                              Of, std::move(Fetched));
+}
+
+bool Clock::hasRoom(unsigned Core) const {
+  return Rasters[Shape.socketOf(Core)].hasRoom();
+}
+
+bool Clock::hasRoomForTail(unsigned Core) const {
+  return Pixels[Shape.clusterOf(Core)].hasRoom();
+}
+
+bool Clock::hasRoom() const {
+  const auto HasRoom = [](const auto &Unit) { return Unit.hasRoom(); };
+  return std::ranges::all_of(Rasters, HasRoom) &&
+         std::ranges::all_of(Pixels, HasRoom);
 }
 
 void Clock::setObservers(std::vector<TimeObserver *> Observers) {
@@ -100,16 +125,21 @@ void Clock::setEnded(unsigned Core, uint32_t Warps) {
 }
 
 bool Clock::isOverfull() const {
-  return std::any_of(Cores.begin(), Cores.end(), [](const CoreClock &C) {
-    return C.backlog() > LongestBacklog;
-  });
+  const size_t MostBytes = HostBudget::TraceBytes / Cores.size();
+  return !hasRoom() ||
+         std::ranges::any_of(Cores, [MostBytes](const CoreClock &C) {
+           return C.backlog() > LongestBacklog || C.backlogBytes() > MostBytes;
+         });
 }
 
-void Clock::takeAll() {
+/// False if the time is over before all is taken.
+bool Clock::takeAll() {
   for (unsigned N = 0; N != Turns.size(); ++N)
     update(N);
-  while (step()) {
-  }
+  for (unsigned Steps = 1; step(); ++Steps)
+    if (Steps % LongestStretch == 0 && Budget.isOver())
+      return false;
+  return true;
 }
 
 void Clock::publish() {
@@ -126,7 +156,7 @@ void Clock::take() {
   WorthTaking = false;
 }
 
-TimeReport Clock::end() {
+std::optional<TimeReport> Clock::end() {
   if (isWorthTaking())
     take();
   publish();
@@ -134,7 +164,12 @@ TimeReport Clock::end() {
     setEnded(N, static_cast<uint32_t>((uint64_t{1} << Shape.WarpsPerCore) - 1));
   for (RasterClock &R : Rasters)
     R.lastWork();
-  takeAll();
+  for (PixelClock &U : Pixels)
+    U.lastWork();
+  if (!takeAll()) {
+    giveUp();
+    return std::nullopt;
+  }
   const uint64_t End = Memory.endRun(coresQuietAt());
   Horizon = End;
   takeAll();
@@ -154,6 +189,7 @@ TimeReport Clock::end() {
     C.end(End);
     R.Rasters.push_back(C.time());
     R.CommandsLeft += C.commandsLeft();
+    R.OutOfOrder += C.outOfTurn();
   }
   for (PixelClock &U : Pixels) {
     U.end(End);
@@ -165,6 +201,22 @@ TimeReport Clock::end() {
   collectActivities(R);
   Now = End;
   return R;
+}
+
+/// What is left of the run is dropped; memory answers what it was asked.
+void Clock::giveUp() {
+  reset();
+  while (Memory.nextEvent() != Turn::Never)
+    advanceMemory(Memory.nextEvent());
+  Now = Memory.endRun(coresQuietAt());
+  for (CoreClock &C : Cores)
+    C.end(Now);
+  for (RasterClock &C : Rasters)
+    C.end(Now);
+  for (PixelClock &U : Pixels)
+    U.end(Now);
+  if (Watch)
+    Watch->tell([this](TimeObserver &O) { O.timeEnds(Now); });
 }
 
 void Clock::reset() {
@@ -191,6 +243,8 @@ bool Clock::coresAreDone() const {
 
 void Clock::update(unsigned Who) {
   if (Who >= placeOfRaster(0)) {
+    if (Who < placeOfPixels(0))
+      Rasters[Who - placeOfRaster(0)].refresh();
     Turns[Who] = Who < placeOfPixels(0) ? Rasters[Who - placeOfRaster(0)].turn()
                                         : Pixels[Who - placeOfPixels(0)].turn();
     return;
@@ -298,6 +352,9 @@ bool Clock::step() {
     First = std::min_element(Turns.begin(), Turns.end(), [&](Turn A, Turn B) {
       return Known(A) < Known(B);
     });
+    // What is not known may wait for what memory answers.
+    if (!First->IsKnown)
+      return stepMemory(OfMemory);
   }
   // Whoever goes on in a cycle knows all that memory has decided by then.
   if (!(*First < OfMemory))
@@ -328,6 +385,11 @@ bool Clock::stepMemory(Turn Next) {
     Until = std::min(Until, std::max(Horizon, coresQuietAt()));
   if (Memory.nextEvent() == Turn::Never || Memory.nextEvent() > Until)
     return false;
+  advanceMemory(Until);
+  return true;
+}
+
+void Clock::advanceMemory(uint64_t Until) {
   Answers.clear();
   Memory.advance(Until, Answers);
   for (const Answer &A : Answers) {
@@ -344,7 +406,6 @@ bool Clock::stepMemory(Turn Next) {
       Cores[Who].answer(A.To.Tag, A.At);
     update(Who);
   }
-  return true;
 }
 
 /// A line of code comes for those of \p Socket that wait for it.

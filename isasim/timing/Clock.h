@@ -1,6 +1,7 @@
 /// The clock: what a machine's runs take (docs/adr/0007-the-clock.md).
 #pragma once
 
+#include "core/HostBudget.h"
 #include "raster/WorkLog.h"
 #include "timing/CoreClock.h"
 #include "timing/InstructionCache.h"
@@ -22,7 +23,8 @@ namespace vorion::isasim {
 /// one.
 class Clock {
 public:
-  explicit Clock(const Config &C);
+  /// Keeps references to both.
+  Clock(const Config &C, const HostBudget &Budget);
   Clock(const Clock &) = delete;
   Clock &operator=(const Clock &) = delete;
   ~Clock();
@@ -35,6 +37,15 @@ public:
   /// sockets and clusters may call at the same time.
   void expect(raster::CommandWork &&Work);
   void expect(raster::TailWork &&Work);
+  /// A rasterizer has fetched these of a command that it has not executed yet.
+  void expectPart(const raster::CommandWork &Begun,
+                  std::vector<raster::GaussianWork> &&Fetched);
+  /// Whether the budget has room for more of the rasterizer, or the pixel unit,
+  /// of core \p Core, and of all; if not, take() makes room. It then guesses
+  /// the order of requests, if need be.
+  bool hasRoom(unsigned Core) const;
+  bool hasRoomForTail(unsigned Core) const;
+  bool hasRoom() const;
 
   /// \p Observers are told from now on, in this order.
   void setObservers(std::vector<TimeObserver *> Observers);
@@ -51,15 +62,18 @@ public:
   void take();
   /// Whether somebody watches, who is to be told on the thread of Machine::run.
   bool isWatched() const { return Watch.has_value(); }
-  /// The run is over; all is taken.
-  TimeReport end();
+  /// The run is over; all is taken. Nothing if the budget's time is over before
+  /// that.
+  std::optional<TimeReport> end();
   /// The rasterizers and pixel units were made anew: what they had is dropped.
   void reset();
 
 private:
-  void takeAll();
+  bool takeAll();
   bool step();
   bool stepMemory(Turn Next);
+  void advanceMemory(uint64_t Until);
+  void giveUp();
   void update(unsigned Who);
   void grant(unsigned Core, uint64_t Then);
   void arrive(unsigned Core, uint64_t Then);
@@ -87,6 +101,7 @@ private:
   void collectTimes(TimeReport &R) const;
 
   const Config &Shape;
+  const HostBudget &Budget;
   const TimingConfig &Timing;
   const MachineName Name;
   MemorySystem Memory;

@@ -250,6 +250,13 @@ size_t CoreClock::backlog() const {
   return Sum;
 }
 
+size_t CoreClock::backlogBytes() const {
+  size_t Sum = 0;
+  for (unsigned W = 0; W != Others.size(); ++W)
+    Sum += of(W).Trace->bytes();
+  return Sum;
+}
+
 void CoreClock::setEnded(uint32_t Warps) {
   for (unsigned W = 0; W != Others.size(); ++W)
     of(W).Ended = Warps >> W & 1;

@@ -95,6 +95,7 @@ public:
   }
   /// How much trace is waiting.
   size_t backlog() const;
+  size_t backlogBytes() const;
 
   unsigned warps() const { return static_cast<unsigned>(Others.size()); }
   /// The warp whose turn it is.

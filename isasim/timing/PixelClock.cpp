@@ -9,11 +9,21 @@ namespace vorion::isasim {
 
 namespace {
 constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
+
+size_t bytesOf(const raster::TailWork &W) {
+  return sizeof(W) + W.Records.size() * sizeof(W.Records[0]) +
+         W.Pixels.size() * sizeof(W.Pixels[0]);
+}
 } // namespace
 
 PixelClock::PixelClock(const TimingConfig &Params, MemoryPort Port,
-                       unsigned Cores)
-    : Timing(Params.Pixel), Expected(Cores), Fetch(Port, Timing.BufferEntries) {
+                       unsigned Cores, size_t MostHeldIn)
+    : Timing(Params.Pixel), MostHeld(MostHeldIn), Expected(Cores),
+      Fetch(Port, Timing.BufferEntries) {}
+
+void PixelClock::expect(unsigned Core, raster::TailWork &&Executed) {
+  Held += bytesOf(Executed);
+  Expected[Core].push_back(std::move(Executed));
 }
 
 void PixelClock::watch(const TimeWatch *Observers, unsigned Own) {
@@ -27,6 +37,7 @@ void PixelClock::watch(const TimeWatch *Observers, unsigned Own) {
 }
 
 void PixelClock::begin(uint64_t Start) {
+  MoreWork = true;
   if (Now == Stage::Idle)
     DoneAt = std::max(DoneAt, Start);
   Ledger.begin(Start);
@@ -36,6 +47,7 @@ void PixelClock::begin(uint64_t Start) {
 void PixelClock::reset() {
   for (auto &E : Expected)
     E.clear();
+  Held = 0;
   Queue.clear();
   Now = Stage::Idle;
   At = Turn::Never;
@@ -137,6 +149,7 @@ void PixelClock::take(MemorySystem &Memory) {
   if (!Expected[Serving].empty()) {
     Work = std::move(Expected[Serving].front());
     Expected[Serving].pop_front();
+    Held -= bytesOf(Work);
   }
   ++Spent.Tails;
   spend(PixelCycle::Idle, At - DoneAt);

@@ -9,7 +9,9 @@
 #include "timing/TimeObserver.h"
 #include "timing/Turn.h"
 
+#include <cstddef>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,23 +24,31 @@ namespace vorion::isasim {
 /// again for every group.
 class PixelClock {
 public:
-  PixelClock(const TimingConfig &Params, MemoryPort Port, unsigned Cores);
+  /// \p MostHeld: bytes of hand-overs that it may hold for want of time.
+  PixelClock(const TimingConfig &Params, MemoryPort Port, unsigned Cores,
+             size_t MostHeld = std::numeric_limits<size_t>::max());
 
-  /// The work of a hand-over of core \p Core of the cluster, before accept().
-  void expect(unsigned Core, raster::TailWork &&Executed) {
-    Expected[Core].push_back(std::move(Executed));
-  }
+  /// The work of a hand-over of core \p Core of the cluster.
+  void expect(unsigned Core, raster::TailWork &&Executed);
+  /// False if it must go on before it is told of others.
+  bool hasRoom() const { return Held < MostHeld; }
   /// \p Observers are told from now on, as of number \p Own; null for nobody.
   void watch(const TimeWatch *Observers, unsigned Own);
 
   /// A run begins; what was given to it before goes on.
   void begin(uint64_t Now);
+  /// No more work will be known in this run.
+  void lastWork() { MoreWork = false; }
   /// Everything that it was given is dropped.
   void reset();
   /// The next expected hand-over of \p Core has reached the queue.
   void accept(unsigned Core, uint64_t Now);
 
-  Turn turn() const { return Turn(At); }
+  /// What it does next is not known as long as its work is not.
+  Turn turn() const {
+    return Turn(At, Now != Stage::Take || !MoreWork ||
+                        !Expected[Queue.front()].empty());
+  }
   /// Does it; returns the core of a hand-over that is done with it.
   std::optional<unsigned> step(MemorySystem &Memory);
   /// An answer of memory.
@@ -83,6 +93,9 @@ private:
   }
 
   const PixelTiming Timing;
+  const size_t MostHeld;
+  size_t Held = 0;                                    ///< bytes
+  bool MoreWork = true;                               ///< see lastWork()
   std::vector<std::deque<raster::TailWork>> Expected; ///< by core
   std::deque<unsigned> Queue;                         ///< cores
 

@@ -12,6 +12,8 @@ using raster::GaussianWork;
 namespace {
 constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
 constexpr unsigned HalfBuffer = raster::VR_MAX_TILE * raster::VR_MAX_TILE / 2;
+size_t bytesOf(size_t Gaussians) { return Gaussians * sizeof(GaussianWork); }
+
 /// Of a command that was refused, units may not exist.
 size_t expOf(raster::LaneUnits U) {
   return U.Exp < raster::ExpUnitCount ? U.Exp : 0;
@@ -22,9 +24,11 @@ size_t blendOf(raster::LaneUnits U) {
 } // namespace
 
 RasterClock::RasterClock(const TimingConfig &Params, MemoryPort Port,
-                         unsigned NumAgents, unsigned QueueDepthIn)
-    : Timing(Params.Raster), QueueDepth(QueueDepthIn), Agents(NumAgents),
-      Fetch(Port, Timing.BufferEntries), Lanes(Timing), Store(Params, Port) {}
+                         unsigned NumAgents, unsigned QueueDepthIn,
+                         size_t MostHeldIn)
+    : Timing(Params.Raster), QueueDepth(QueueDepthIn), MostHeld(MostHeldIn),
+      Agents(NumAgents), Fetch(Port, Timing.BufferEntries), Lanes(Timing),
+      Store(Params, Port) {}
 
 void RasterClock::watch(const TimeWatch *Observers, unsigned Own) {
   Watch = Observers;
@@ -36,8 +40,40 @@ void RasterClock::watch(const TimeWatch *Observers, unsigned Own) {
     });
 }
 
+/// What is known of the command of \p Agent that is being executed, which may
+/// have been taken.
+RasterWork &RasterClock::known(unsigned Agent,
+                               const raster::CommandWork &Begun) {
+  auto &Expected = Agents[Agent].Expected;
+  if (!Expected.empty() && !Expected.back().isComplete())
+    return Expected.back();
+  const bool IsTaken = Now != Stage::Idle && Now != Stage::Take;
+  if (IsTaken && Serving == Agent && !Work.isComplete())
+    return Work;
+  Held += sizeof(RasterWork);
+  return Expected.emplace_back(Begun);
+}
+
+void RasterClock::expectPart(unsigned Agent, const raster::CommandWork &Begun,
+                             std::vector<GaussianWork> &&Fetched) {
+  Held += bytesOf(Fetched.size());
+  known(Agent, Begun).add(std::move(Fetched));
+}
+
+void RasterClock::expect(unsigned Agent, raster::CommandWork &&Executed) {
+  Held += bytesOf(Executed.Gaussians.size());
+  RasterWork &To = known(Agent, Executed);
+  To.complete(std::move(Executed));
+}
+
+void RasterClock::refresh() {
+  if (IsStarved && (Work.isComplete() || Number != Work.known()))
+    fetched();
+}
+
 void RasterClock::begin(uint64_t Start) {
   MoreWork = true;
+  OutOfTurn = 0;
   if (Now == Stage::Idle || Now == Stage::Take)
     DispatchAt = std::max(DispatchAt, Start);
   if (Now == Stage::Take)
@@ -56,6 +92,9 @@ void RasterClock::reset() {
     A.Batches.clear();
   }
   Behind.reset();
+  Work = {};
+  Held = 0;
+  IsStarved = false;
   IsDirty = true;
   Now = Stage::Idle;
   At = Turn::Never;
@@ -95,10 +134,9 @@ void RasterClock::handOver() {
   spend(RasterCycle::Drain, At - DispatchAt);
   Agents[Serving].Batches.push_back(true);
   ++Agents[Serving].Waiting;
-  if (Number == Work.Gaussians.size())
-    return flush();
+  HandedOver = Number;
   Now = Stage::Fetch;
-  At = Fetch.startOf(Number);
+  fetched();
 }
 
 std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
@@ -116,7 +154,7 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
       break;
     }
     take();
-    if (Work.What.IsBackward && !Work.hasFailed())
+    if (task().IsBackward && !task().Refusal)
       load(Memory);
     fetched();
     break;
@@ -151,14 +189,19 @@ void RasterClock::answer(uint32_t Tag, uint64_t Then) {
 
 /// Round-robin over the agents that have a command by now.
 std::optional<unsigned> RasterClock::nextAgent() const {
+  std::optional<unsigned> Unknown;
   for (unsigned Tried = 0; Tried != Agents.size(); ++Tried) {
     const auto Turn =
         static_cast<unsigned>((NextAgent + Tried) % Agents.size());
     const Agent &A = Agents[Turn];
-    if (A.hasCommand() && (MoreWork || !A.Expected.empty()))
+    if (!A.hasCommand())
+      continue;
+    if (!A.Expected.empty() || (MoreWork && hasRoom()))
       return Turn;
+    if (MoreWork && !Unknown)
+      Unknown = Turn;
   }
-  return std::nullopt;
+  return Unknown;
 }
 
 /// Whether a tile, so that the next can be blended while it is written, or a
@@ -171,74 +214,84 @@ bool RasterClock::fitsBuffer(const raster::Job &J) const {
 bool RasterClock::mustWaitForBehind() const {
   if (!Behind)
     return false;
-  const raster::Job &Next = Agents[*nextAgent()].Expected.front().What;
+  const raster::Job &Next =
+      Agents[*nextAgent()].Expected.front().command().What;
   return Next.IsBackward || !fitsBuffer(Next);
 }
 
 void RasterClock::take() {
   Serving = *nextAgent();
+  for (unsigned N = NextAgent; MoreWork && N != Serving;
+       N = static_cast<unsigned>((N + 1) % Agents.size()))
+    OutOfTurn += Agents[N].hasCommand();
   NextAgent = static_cast<unsigned>((Serving + 1) % Agents.size());
   Agent &A = Agents[Serving];
   Work = std::move(A.Expected.front());
   A.Expected.pop_front();
+  Held -= sizeof(RasterWork);
   ++Spent.Commands;
-  // Of a backward command that failed only the end is known.
-  if (Work.What.IsBackward && Work.hasFailed())
-    Work.Gaussians.clear();
 
   spend(Behind ? RasterCycle::Drain : RasterCycle::Idle, At - DispatchAt);
   TakenAt = At;
   // What is still written behind has the port first.
   const uint64_t Begun = Behind ? std::max(At + Timing.StartCycles, Fetch.now())
                                 : At + Timing.StartCycles;
-  OfLanes.Moved += uint64_t{Work.What.Width} * Work.What.Height;
-  if (Work.What.IsBackward)
-    OfLanes.Gradients += Work.Counts.Blends;
-  else
-    OfLanes.Blended[blendOf(Work.What.Units)] += Work.Counts.Blends;
+  OfLanes.Moved += uint64_t{task().Width} * task().Height;
+  BlendsCounted = false;
+  if (Work.isComplete())
+    countBlends();
   // The whole tile is cleared, a row of banks at a time, unless that was done
   // as the last one of its buffer was written. Its rows begin in rows of banks.
   const unsigned RowsOfBanks =
-      Work.What.Height * ((Work.What.Width + Timing.Banks - 1) / Timing.Banks);
+      task().Height * ((task().Width + Timing.Banks - 1) / Timing.Banks);
   spend(RasterCycle::Begin, Timing.StartCycles + (IsDirty ? RowsOfBanks : 0));
   Fetch.begin(Begun);
   Fetch.beginSet(GaussianFetch::Others);
-  Number = Dispatches = 0;
+  Number = Dispatches = HandedOver = 0;
   BlendedAt = 0;
   Now = Stage::Fetch;
+}
+
+void RasterClock::countBlends() {
+  const uint64_t Blends = Work.command().Counts.Blends;
+  if (task().IsBackward)
+    OfLanes.Gradients += Blends;
+  else
+    OfLanes.Blended[blendOf(task().Units)] += Blends;
+  BlendsCounted = true;
 }
 
 /// A backward tile begins with its pixels' transmittances, gradients and last
 /// contributors, a line a cycle.
 void RasterClock::load(MemorySystem &Memory) {
   const auto Read = [&](uint32_t First, unsigned Row, uint32_t Bytes) {
-    const uint32_t Pitch = Work.What.OutputPitch / PixelBytes * Bytes;
+    const uint32_t Pitch = task().OutputPitch / PixelBytes * Bytes;
     Fetch.read(Memory, GaussianFetch::Others, First + Row * Pitch,
-               Work.What.Width * Bytes);
+               task().Width * Bytes);
   };
-  for (unsigned Row = 0; Row != Work.What.Height; ++Row) {
-    Read(Work.What.Output, Row, PixelBytes);
-    Read(Work.What.Upstream, Row, PixelBytes);
-    Read(Work.What.Last, Row, sizeof(uint32_t));
+  for (unsigned Row = 0; Row != task().Height; ++Row) {
+    Read(task().Output, Row, PixelBytes);
+    Read(task().Upstream, Row, PixelBytes);
+    Read(task().Last, Row, sizeof(uint32_t));
   }
 }
 
 /// The place in its list of a Gaussian in the order of the fetches.
 uint32_t RasterClock::entryOf(size_t Gaussian) const {
   return static_cast<uint32_t>(
-      Work.What.IsBackward ? Work.Gaussians.size() - 1 - Gaussian : Gaussian);
+      task().IsBackward ? Work.command().Entries - 1 - Gaussian : Gaussian);
 }
 
 void RasterClock::fetch(MemorySystem &Memory) {
   constexpr int LineBytes = TimingLineBytes;
-  const GaussianWork &G = Work.Gaussians[Number];
+  const GaussianWork &G = Work[Number];
   Fetch.waitUntil(At);
   if (!G.Address) {
     Fetch.skipRecord(Number);
   } else {
     const uint64_t EntryAt =
-        Fetch.entryAt(Memory, Work.What.List + 4 * entryOf(Number),
-                      Work.What.IsBackward ? -LineBytes : LineBytes);
+        Fetch.entryAt(Memory, task().List + 4 * entryOf(Number),
+                      task().IsBackward ? -LineBytes : LineBytes);
     if (EntryAt > Fetch.now()) {
       At = EntryAt;
       return;
@@ -250,7 +303,7 @@ void RasterClock::fetch(MemorySystem &Memory) {
 }
 
 bool RasterClock::endsBatch(size_t Gaussian) const {
-  return Work.What.IsBackward && entryOf(Gaussian) % raster::VR_GRAD_LANES == 0;
+  return task().IsBackward && entryOf(Gaussian) % raster::VR_GRAD_LANES == 0;
 }
 
 /// Dispatches what is known to come, in order, and says when there is more to
@@ -264,11 +317,13 @@ void RasterClock::fetched() {
     const uint64_t Ready = Fetch.recordAt(Dispatches);
     if (Ready == Turn::Never)
       break;
-    dispatch(Work.Gaussians[Dispatches], Ready + Timing.RecordCycles);
+    dispatch(Work[Dispatches], Ready + Timing.RecordCycles);
     Fetch.hold(Dispatches, DispatchAt + 1); // its entry is free a cycle later
   }
-  const bool IsLast = Number == Work.Gaussians.size();
-  const bool IsBatch = Number != 0 && endsBatch(Number - 1);
+  Held -= bytesOf(Work.drop(Dispatches));
+  const bool IsLast = Work.isComplete() && Number == Work.known();
+  const bool IsBatch = Number != HandedOver && endsBatch(Number - 1);
+  IsStarved = !IsLast && !IsBatch && Number == Work.known();
   if (!IsLast && !IsBatch) {
     // The next one needs the entry of whoever had it before.
     At = Fetch.startOf(Number);
@@ -280,9 +335,9 @@ void RasterClock::fetched() {
   if (!IsBatch)
     return flush();
   // The gather empties before its sums go.
-  spend(RasterCycle::Flush,
-        backwardDepth(Work.What.Units,
-                      static_cast<unsigned>(Work.What.Backward.Unit)));
+  spend(
+      RasterCycle::Flush,
+      backwardDepth(task().Units, static_cast<unsigned>(task().Backward.Unit)));
   Now = Stage::HandOver;
   if (Agents[Serving].Waiting < BatchDepth)
     At = DispatchAt;
@@ -297,14 +352,14 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
     spend(RasterCycle::Clip, Timing.ClipCycles);
     return;
   }
-  const RasterLanes::Passage P = Lanes.passageOf(G, Work.What.IsBackward);
+  const RasterLanes::Passage P = Lanes.passageOf(G, task().IsBackward);
   OfLanes.BlockRows += P.BlockRows;
   const uint64_t Safe = Lanes.safeAt(G, P.Cycles, DispatchAt);
   if (Safe > DispatchAt)
     spend(RasterCycle::Hazard, Safe - DispatchAt);
   Lanes.enter(G, DispatchAt, P.Cycles);
   Spent.LaneSlots += P.Slots;
-  OfLanes.Evaluated[expOf(Work.What.Units)] += P.Slots;
+  OfLanes.Evaluated[expOf(task().Units)] += P.Slots;
   spend(RasterCycle::Blend, std::max<uint64_t>(P.Cycles, Timing.ClipCycles));
   BlendedAt = DispatchAt;
 }
@@ -312,16 +367,18 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
 /// Dispatch is done: the lanes empty, then the tile is written. A pixel can be
 /// read in the cycle in which it gets its last value.
 void RasterClock::flush() {
-  const uint64_t Emptied = BlendedAt + laneDepth(Work.What.Units) - 1;
-  if (BlendedAt != 0 && !Work.What.IsBackward && Emptied > DispatchAt)
+  const uint64_t Emptied = BlendedAt + laneDepth(task().Units) - 1;
+  if (BlendedAt != 0 && !task().IsBackward && Emptied > DispatchAt)
     spend(RasterCycle::Flush, Emptied - DispatchAt);
+  if (!BlendsCounted)
+    countBlends();
   Lanes.clear();
   Draining = {};
   At = DispatchAt;
   IsDirty = true;
-  if (Work.What.Drains || Work.What.IsBackward || Work.hasFailed()) {
+  if (task().Drains || task().IsBackward || Work.command().hasFailed()) {
     Now = Stage::Done;
-  } else if (!fitsBuffer(Work.What)) {
+  } else if (!fitsBuffer(task())) {
     Now = Stage::Drain;
   } else if (Behind) {
     Now = Stage::Full;
@@ -335,24 +392,24 @@ void RasterClock::flush() {
 void RasterClock::drainBehind() {
   IsDirty = false;
   ++Agents[Serving].Behind;
-  Behind = Written{std::move(Work), Serving, TakenAt, DispatchAt, {}};
+  Behind = Written{Work.take(), Serving, TakenAt, DispatchAt, {}};
   goOn();
 }
 
 void RasterClock::drain(MemorySystem &Memory) {
   Fetch.waitUntil(At);
-  OfLanes.Moved += TileStore::writeLine(Memory, Fetch, Work.What, Draining,
+  OfLanes.Moved += TileStore::writeLine(Memory, Fetch, task(), Draining,
                                         GaussianFetch::Others);
   drained();
 }
 
 void RasterClock::drained() {
-  At = Store.goesOnAt(Fetch, GaussianFetch::Others, DispatchAt + 1, Work.What,
+  At = Store.goesOnAt(Fetch, GaussianFetch::Others, DispatchAt + 1, task(),
                       Draining);
   if (At == Turn::Never)
     return;
   spend(RasterCycle::Drain, At - DispatchAt);
-  if (Draining.Row == Work.What.Height)
+  if (Draining.Row == task().Height)
     Now = Stage::Done;
 }
 
@@ -390,11 +447,11 @@ RasterClock::Finished RasterClock::finishBehind(MemorySystem &Memory) {
 }
 
 RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
-  if (Work.What.IsBackward)
+  if (task().IsBackward)
     Agents[Serving].Batches.push_back(false);
   spend(RasterCycle::Drain,
-        Store.writeRest(Memory, Work, DispatchAt) - DispatchAt);
-  const Finished Done = complete(Work, Serving, TakenAt, DispatchAt);
+        Store.writeRest(Memory, Work.command(), DispatchAt) - DispatchAt);
+  const Finished Done = complete(Work.command(), Serving, TakenAt, DispatchAt);
   goOn();
   return Done;
 }

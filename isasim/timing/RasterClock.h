@@ -9,11 +9,13 @@
 #include "timing/GaussianFetch.h"
 #include "timing/MemorySystem.h"
 #include "timing/RasterLanes.h"
+#include "timing/RasterWork.h"
 #include "timing/TileStore.h"
 #include "timing/TimeObserver.h"
 #include "timing/Turn.h"
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,8 +24,10 @@ namespace vorion::isasim {
 /// One rasterizer. Its owner calls step() in the order of time.
 class RasterClock {
 public:
+  /// \p MostHeld: bytes of commands that it may hold for want of time.
   RasterClock(const TimingConfig &Params, MemoryPort Port, unsigned Agents,
-              unsigned QueueDepth);
+              unsigned QueueDepth,
+              size_t MostHeld = std::numeric_limits<size_t>::max());
 
   /// Batches of gradients that an agent holds (raster::AgentConfig).
   static constexpr unsigned BatchDepth = raster::AgentConfig().BatchDepth;
@@ -31,9 +35,18 @@ public:
   /// The work of a command of an agent. A command may have been started before
   /// it is known: while the machine's rasterizer is halted by an agent's
   /// batches, it executes no other command.
-  void expect(unsigned Agent, raster::CommandWork &&Executed) {
-    Agents[Agent].Expected.push_back(std::move(Executed));
-  }
+  void expect(unsigned Agent, raster::CommandWork &&Executed);
+  /// The next Gaussians of a command, \p Begun, that is being executed.
+  void expectPart(unsigned Agent, const raster::CommandWork &Begun,
+                  std::vector<raster::GaussianWork> &&Fetched);
+  /// False if it holds so much that it must go on before it is told more. It
+  /// then takes commands out of turn that it knows, rather than wait for one
+  /// that it does not know.
+  bool hasRoom() const { return Held < MostHeld; }
+  /// How often it did, in this run.
+  uint64_t outOfTurn() const { return OutOfTurn; }
+  /// To be called before turn() when it may have been told something.
+  void refresh();
 
   /// \p Observers are told from now on, as of number \p Own; null for nobody.
   void watch(const TimeWatch *Observers, unsigned Own);
@@ -92,7 +105,7 @@ public:
 
 private:
   struct Agent {
-    std::deque<raster::CommandWork> Expected;
+    std::deque<RasterWork> Expected;
     unsigned Queued = 0;
     unsigned Behind = 0; ///< of these, whose tile is written behind the next
     unsigned Tails = 0;  ///< that the pixel unit has
@@ -124,14 +137,19 @@ private:
     Ledger.spend(What, DispatchAt);
   }
   Turn turnOfFront() const {
+    if (Now == Stage::Fetch && Number == Work.known() && !Work.isComplete())
+      return MoreWork ? Turn(At, false) : Turn();
     if (Now != Stage::Take)
       return Turn(At);
     const std::optional<unsigned> Next = nextAgent();
     return Next ? Turn(At, !Agents[*Next].Expected.empty()) : Turn();
   }
+  const raster::Job &task() const { return Work.command().What; }
+  RasterWork &known(unsigned Agent, const raster::CommandWork &Begun);
   std::optional<unsigned> nextAgent() const;
   bool mustWaitForBehind() const;
   void take();
+  void countBlends();
   void load(MemorySystem &Memory);
   uint32_t entryOf(size_t Gaussian) const;
   void handOver();
@@ -154,6 +172,9 @@ private:
 
   const RasterTiming Timing;
   unsigned QueueDepth;
+  const size_t MostHeld;
+  size_t Held = 0; ///< bytes
+  uint64_t OutOfTurn = 0;
   std::vector<Agent> Agents;
   unsigned NextAgent = 0, Serving = 0;
   bool MoreWork = true; ///< see lastWork()
@@ -163,10 +184,13 @@ private:
   /// The next cycle in which dispatch can give pixels to lanes. All cycles
   /// before are accounted for.
   uint64_t DispatchAt = 0;
-  raster::CommandWork Work;
-  uint64_t TakenAt = 0;  ///< of Work
-  size_t Number = 0;     ///< of the Gaussian that is fetched next
-  size_t Dispatches = 0; ///< Gaussians that have been dispatched or dropped
+  RasterWork Work;
+  bool BlendsCounted = false; ///< of Work
+  uint64_t TakenAt = 0;       ///< of Work
+  size_t Number = 0;          ///< of the Gaussian that is fetched next
+  size_t Dispatches = 0;  ///< Gaussians that have been dispatched or dropped
+  size_t HandedOver = 0;  ///< of these, in batches that the agent has
+  bool IsStarved = false; ///< see refresh()
   /// When the last box of Work had its last lane; 0 if there was none.
   uint64_t BlendedAt = 0;
   GaussianFetch Fetch;

@@ -371,6 +371,7 @@ CommandWork backward(std::vector<GaussianWork> Gaussians) {
   W.What.Height = 64;
   W.What.OutputPitch = 512;
   W.What.IsBackward = true;
+  W.Entries = static_cast<uint32_t>(Gaussians.size());
   W.Gaussians = std::move(Gaussians);
   return W;
 }
@@ -447,6 +448,136 @@ TEST_F(RasterClockTest, ARunThatEndsInAHaltDrains) {
   const uint64_t Halted = finish(R);
   R.end(Halted + 1000);
   EXPECT_EQ(of(R.time(), RasterCycle::Drain), 1000U);
+}
+
+TEST_F(RasterClockTest, AnAnswerBehindAHandOverHandsNothingOverAgain) {
+  // A list's next line is asked for a line ahead, so that its answer comes at
+  // any moment of what is done with the batch before.
+  constexpr unsigned Batches = 40;
+  for (unsigned Height = 0; Height != 8; ++Height) {
+    GaussianWork G = box(0, 0, Height ? 8 : 0, Height);
+    G.Address = 0x100000;
+    CommandWork W = backward(std::vector(16 * Batches, G));
+    W.What.List = 0x8000000 + 0x10000 * Height;
+    RasterClock R(P, MemoryPort(), 1, 4);
+    R.begin(Now);
+    R.expect(0, std::move(W));
+    R.start(0, Now);
+    while (R.isBusy(0)) {
+      step(R);
+      if (R.isBusy(0) && R.canTake(0))
+        R.takeBatch(0, R.freeAt());
+    }
+    R.end(finish(R));
+    EXPECT_EQ(of(R.time(), RasterCycle::Flush), Batches * backwardDepth({}, 0))
+        << Height;
+    Now = R.freeAt() + 100000;
+  }
+}
+
+/// What a rasterizer does is told in parts, each before or after the clock has
+/// got that far.
+class RasterPartsTest : public RasterClockTest {
+protected:
+  /// When a command was done that is told in parts of \p Length Gaussians, each
+  /// when the clock needs it.
+  RasterTime timeInParts(CommandWork W, size_t Length) {
+    RasterClock R(P, MemoryPort(), 1, 4);
+    R.begin(Now);
+    R.start(0, Now);
+    const std::vector<GaussianWork> All = std::exchange(W.Gaussians, {});
+    const CommandWork Begun = W;
+    for (size_t Told = 0; Told + Length < All.size(); Told += Length) {
+      const auto From = All.begin() + static_cast<ptrdiff_t>(Told);
+      R.expectPart(0, Begun, {From, From + static_cast<ptrdiff_t>(Length)});
+      R.refresh();
+      while (R.turn().IsKnown && step(R)) {
+      }
+      EXPECT_FALSE(R.turn().IsKnown) << "it waits for the next part";
+      W.Gaussians.assign(From + static_cast<ptrdiff_t>(Length), All.end());
+    }
+    R.expect(0, std::move(W));
+    R.refresh();
+    const uint64_t End = finish(R);
+    R.end(End);
+    Now = End + 100000;
+    return R.time();
+  }
+};
+
+TEST_F(RasterPartsTest, TakeTheSameTime) {
+  std::vector<GaussianWork> Boxes;
+  for (unsigned N = 0; N != 50; ++N)
+    Boxes.push_back(box(N % 8, N % 5, 1 + N % 30, 1 + N % 20));
+  const RasterTime Whole = timeOf(written(64, 64, Boxes));
+  for (const size_t Length : {1U, 7U, 16U, 49U}) {
+    const RasterTime Parts = timeInParts(written(64, 64, Boxes), Length);
+    EXPECT_EQ(Parts.Cycles, Whole.Cycles) << Length;
+    EXPECT_EQ(Parts.LaneSlots, Whole.LaneSlots);
+  }
+}
+
+TEST_F(RasterPartsTest, OfABackwardCommandAreItsBatches) {
+  const auto Boxes = std::vector(16 * 2 + 5, box(0, 0, 8, 8));
+  const RasterTime Whole = timeOf(backward(Boxes));
+  // The last entries of the list come first, 5 of them in the first batch.
+  RasterClock R(P, MemoryPort(), 1, 4);
+  R.begin(Now);
+  CommandWork W = backward({});
+  W.Entries = 16 * 2 + 5;
+  R.expectPart(0, W, std::vector(5, box(0, 0, 8, 8)));
+  R.expectPart(0, W, std::vector(16, box(0, 0, 8, 8)));
+  R.start(0, Now);
+  while (R.turn().IsKnown && step(R)) {
+  }
+  W.Gaussians.assign(16, box(0, 0, 8, 8));
+  R.expect(0, std::move(W));
+  R.refresh();
+  finish(R);
+  R.takeBatch(0, R.freeAt());
+  const uint64_t End = finish(R);
+  R.end(End);
+  EXPECT_FALSE(R.isBusy(0));
+  EXPECT_EQ(R.time().LaneSlots, Whole.LaneSlots);
+  EXPECT_EQ(of(R.time(), RasterCycle::Flush), of(Whole, RasterCycle::Flush));
+}
+
+TEST_F(RasterPartsTest, AreForgottenOnceTheyAreTimed) {
+  constexpr size_t Length = 100;
+  RasterClock R(P, MemoryPort(), 1, 4, Length * sizeof(GaussianWork));
+  R.begin(0);
+  R.start(0, 0);
+  CommandWork W = written(64, 64, {});
+  for (unsigned Part = 0; Part != 20; ++Part) {
+    EXPECT_TRUE(R.hasRoom());
+    R.expectPart(0, W, std::vector(Length, box(0, 0, 4, 4)));
+    EXPECT_FALSE(R.hasRoom());
+    R.refresh();
+    while (R.turn().IsKnown && step(R)) {
+    }
+  }
+  R.expect(0, std::move(W));
+  R.refresh();
+  R.end(finish(R));
+  EXPECT_EQ(R.time().Gaussians, 20 * Length);
+}
+
+TEST_F(RasterPartsTest, AFullClockTakesWhatItKnowsOutOfTurn) {
+  RasterClock R(P, MemoryPort(), 2, 4, 10 * sizeof(GaussianWork));
+  R.begin(0);
+  R.start(0, 0); // of this one nothing is known
+  R.start(1, 0);
+  EXPECT_FALSE(R.turn().IsKnown);
+  R.expect(1, written(64, 64, std::vector(10, box(0, 0, 4, 4))));
+  EXPECT_TRUE(R.turn().IsKnown);
+  while (R.turn().IsKnown && step(R)) {
+  }
+  EXPECT_TRUE(R.hasRoom());
+  EXPECT_EQ(R.outOfTurn(), 1U);
+  EXPECT_FALSE(R.isBusy(1));
+  R.expect(0, written(64, 64, {box(0, 0, 4, 4)}));
+  R.end(finish(R));
+  EXPECT_FALSE(R.isBusy(0));
 }
 
 } // namespace

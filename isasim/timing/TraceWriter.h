@@ -29,6 +29,9 @@ public:
   /// @{
   bool empty() const { return Runs.empty(); }
   size_t size() const { return Runs.size(); }
+  size_t bytes() const {
+    return Runs.size() * sizeof(RunRecord) + Words.size() * sizeof(uint32_t);
+  }
   const RunRecord &front() const { return *Runs.front(); }
   void pop() { ++Runs.Read; }
   uint32_t word(size_t N = 0) const { return Words.front()[N]; }
