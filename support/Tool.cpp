@@ -1,8 +1,10 @@
 #include "vorion/support/Tool.h"
 
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/StatusLine.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -10,6 +12,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <new>
+#include <sys/resource.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -35,16 +38,41 @@ int reportFullOutput(std::string_view Tool, int Cause) {
 /// Of the tool; empty before its main function.
 std::string_view ToolName;
 
-/// Without taking memory, of which there may be none.
-int reportNoMemory() {
+/// Without taking memory, of which there may be none, and in a signal's
+/// handler, too.
+int reportLimit(std::string_view What) {
+  keepStatus();
   for (const std::string_view Part :
        {ToolName.empty() ? std::string_view(program_invocation_short_name)
                          : ToolName,
-        std::string_view(": error: memory ran out, expected a "
-                         "smaller input or a machine with more\n")})
+        std::string_view(": error: "), What, std::string_view("\n")})
     if (::write(STDERR_FILENO, Part.data(), Part.size()) < 0)
       break;
   return static_cast<int>(ExitCode::LimitReached);
+}
+
+int reportNoMemory() {
+  return reportLimit("memory ran out, expected a smaller input or a machine "
+                     "with more");
+}
+
+void endWithoutTime(int /*Signal*/) {
+  ::_exit(reportLimit("the limit of processor time (ulimit -t) is reached, "
+                      "expected a higher one"));
+}
+
+/// Limits of the shell (ulimit) whose signals end a process without a message.
+void catchLimits() {
+  // A file that may not grow is an error of the write.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGXCPU, endWithoutTime);
+  // No process learns of the hard limit: the signal is to come before it.
+  struct rlimit Time{};
+  if (::getrlimit(RLIMIT_CPU, &Time) == 0 && Time.rlim_max != RLIM_INFINITY &&
+      Time.rlim_max > 1 && Time.rlim_cur == Time.rlim_max) {
+    --Time.rlim_cur;
+    ::setrlimit(RLIMIT_CPU, &Time);
+  }
 }
 
 /// Memory may run out in any thread and in code of others, where an exception
@@ -62,6 +90,7 @@ int reportNoMemory() {
 int runTool(std::string_view Tool, const std::function<int()> &Body) {
   keepStandardStreams();
   ToolName = Tool;
+  catchLimits();
   int Code = 0;
   try {
     Code = Body();

@@ -27,6 +27,8 @@ Error cannotWrite(const std::string &Path, int Cause,
                   std::string_view Wanted = WritableFolder) {
   if (Wanted == WritableFolder && (Cause == ENOSPC || Cause == EDQUOT))
     Wanted = "free space there";
+  if (Cause == EFBIG)
+    Wanted = "a higher limit of the size of files (ulimit -f)";
   return {Path, fmt::format("cannot write: {}, expected {}",
                             std::strerror(Cause), Wanted)};
 }

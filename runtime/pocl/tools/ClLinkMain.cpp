@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -332,9 +331,6 @@ int run(int Argc, char **Argv) {
     printOut("{}\n", versionLine("vorion-cl-link"));
     return 0;
   }
-  // A file that may not grow is an error of the write, here and in what runs
-  // below, not the end.
-  std::signal(SIGXFSZ, SIG_IGN);
   passEndsToChildren();
   std::error_code Problem;
   const fs::path Root =

@@ -9,7 +9,9 @@ namespace vorion {
 /// Calls \p Body and gives the exit code that it says. What it throws, and
 /// standard output that does not take what was printed, end in one line under
 /// the name of \p Tool: memory that ran out, in whatever thread, as a
-/// limit, anything else as a bug of ours.
+/// limit, anything else as a bug of ours. From here on a limit of the size of
+/// files (ulimit -f) is an error of whatever writes, and one of processor time
+/// (ulimit -t) ends in one line.
 int runTool(std::string_view Tool, const std::function<int()> &Body);
 
 } // namespace vorion
