@@ -45,10 +45,17 @@ PyObject *classOf(ExitCode Code) {
   return Made[0];
 }
 
+/// As Python has names of files, which may be no UTF-8.
+py::object textOf(const std::string &Text) {
+  return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(
+      Text.data(), static_cast<Py_ssize_t>(Text.size())));
+}
+
 void raise(const Failed &F) {
   PyObject *Class = classOf(F.Problem.Code);
-  py::object Raised = py::reinterpret_borrow<py::object>(Class)(F.what());
-  Raised.attr("where") = F.Problem.Where;
+  py::object Raised =
+      py::reinterpret_borrow<py::object>(Class)(textOf(F.what()));
+  Raised.attr("where") = textOf(F.Problem.Where);
   Raised.attr("exit_code") = static_cast<int>(F.Problem.Code);
   Raised.attr("build_log") = F.Log;
   PyErr_SetObject(Class, Raised.ptr());

@@ -10,10 +10,13 @@
 #include "render/Pictures.h"
 #include "render/Report.h"
 
+#include <fmt/format.h>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 namespace vorion::splat::python {
 
@@ -44,17 +47,38 @@ private:
   std::optional<py::error_already_set> Raised;
 };
 
+/// The process that opened the first machine. One that is forked from it has
+/// none of the threads that OpenCL and the machine wait for, and holds whatever
+/// locks they held.
+pid_t OpenedIn = 0;
+
+void checkProcess() {
+  if (OpenedIn != 0 && OpenedIn != ::getpid())
+    throw Failed(
+        {"",
+         fmt::format("process {} was forked from process {} after that had "
+                     "opened a machine, whose threads it does not have, "
+                     "expected a process of its own (the start methods spawn "
+                     "and forkserver of multiprocessing)",
+                     ::getpid(), OpenedIn),
+         ExitCode::Usage});
+}
+
 /// A device with what was compiled for it.
 class Machine {
 public:
   Machine(const std::string &Name, const DeviceOptions &Options)
-      : Dev(valueOf(Device::open(Name, Options))) {}
+      : Own(new State{valueOf(Device::open(Name, Options))}) {}
+  ~Machine() {
+    if (OpenedIn != ::getpid())
+      static_cast<void>(Own.release()); // its release would wait for ever
+  }
 
-  const Device &device() const { return Dev; }
+  const Device &device() const { return Own->Dev; }
 
   /// What watches a run: the clock may be on in this one alone.
   DeviceOptions watching(bool Timed) const {
-    DeviceOptions O = Dev.options();
+    DeviceOptions O = device().options();
     if (O.clockRuns() == ClockText::Runs::Profiled)
       // By the option of splat, whose reports say the same.
       O.set("VORION_TIME", Timed ? "on" : "", Timed ? "--time" : "");
@@ -65,13 +89,15 @@ public:
   /// run at a time, without the GIL. \p Timed: the clock of the machine is on.
   template <typename Function> auto run(bool Timed, const Function &Run) {
     Interrupts Signals;
+    checkProcess();
     std::optional<Failed> Failure;
     auto Result = [&] {
       const py::gil_scoped_release Released;
-      const std::lock_guard Turn(Lock);
+      const std::lock_guard Turn(Own->Lock);
       Launcher *Mine = nullptr;
       Launcher L(
-          Dev, "", [&](std::string_view) { Signals.look(*Mine); }, &Programs);
+          Own->Dev, "", [&](std::string_view) { Signals.look(*Mine); },
+          &Own->Programs);
       Mine = &L;
       L.setProfiled(Timed);
       auto Got = Run(L);
@@ -88,9 +114,12 @@ public:
   }
 
 private:
-  Device Dev;
-  ProgramCache Programs;
-  std::mutex Lock;
+  struct State {
+    Device Dev;
+    ProgramCache Programs = {};
+    std::mutex Lock = {};
+  };
+  std::unique_ptr<State> Own;
 };
 
 /// As vorion.Machine has them, texts by variables with the arguments that gave
@@ -106,6 +135,8 @@ std::unique_ptr<Machine> openMachine(
        Options.clockRuns() == ClockText::Runs::Never) &&
       Options.text("VORION_REGION").empty())
     Options.set("VORION_TIME", "profiled");
+  checkProcess();
+  OpenedIn = ::getpid();
   const py::gil_scoped_release Released;
   return std::make_unique<Machine>(Name, Options);
 }

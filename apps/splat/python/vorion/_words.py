@@ -1,6 +1,17 @@
 """Arguments of Python as words of splat's command line, which checks them."""
 
 import numbers
+import os
+
+from ._machine import UsageError
+
+
+def path_bytes(path):
+    """The name of a file as the system has it, of a str, bytes or a path."""
+    name = os.fsencode(path)
+    if b"\0" in name:  # the system would take it for the part before
+        raise UsageError(f"{path!r}: a NUL in the name, expected a name without one")
+    return name
 
 
 def _text(value):

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _machine
 from ._machine import UsageError
+from ._words import path_bytes
 
 
 def _matrix(name, values, size):
@@ -54,7 +55,7 @@ class Camera:
     @classmethod
     def read(cls, path: str | os.PathLike, view: str | int) -> Camera:
         """The view of INRIA's cameras.json whose img_name is `view`, or else whose id is that number."""
-        return cls._of(_machine.Camera.read(os.fspath(path), str(view)))
+        return cls._of(_machine.Camera.read(path_bytes(path), str(view)))
 
     def __repr__(self) -> str:
         return f"<vorion.Camera {self.name!r}, {self.width}x{self.height}>"
@@ -91,4 +92,4 @@ class Camera:
 
 def read_cameras(path: str | os.PathLike) -> list[Camera]:
     """All views of INRIA's cameras.json, in the order of the file."""
-    return [Camera._of(native) for native in _machine.Camera.read_all(os.fspath(path))]
+    return [Camera._of(native) for native in _machine.Camera.read_all(path_bytes(path))]

@@ -95,6 +95,8 @@ class Machine:
         options = {}
         if not isinstance(set, str | None):
             raise UsageError(f"set is a {type(set).__name__}, expected a text, KEY=VALUE,...")
+        if "\0" in (set or ""):
+            raise UsageError("set holds a NUL, expected a text without one")
         if set is not None:
             options["VORION_SET"] = (set, "set")
         if not isinstance(clock, int | float | None) or isinstance(clock, bool):

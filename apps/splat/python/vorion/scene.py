@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _machine
 from ._machine import UsageError
-from ._words import words
+from ._words import path_bytes, words
 
 _SH_C0 = 0.28209479177387814  # Y_00: what the constant coefficient is multiplied by
 
@@ -84,7 +84,7 @@ class Scene:
         if antialiased is not None:
             asked.append("--antialiased" if antialiased else "--no-antialiased")
         scene = cls.__new__(cls)
-        scene._native = _machine.Scene.read(asked + ["--", os.fspath(path)])
+        scene._native = _machine.Scene.read(asked + ["--", path_bytes(path)])
         return scene
 
     def write(self, path: str | os.PathLike) -> dict[str, float]:
@@ -95,7 +95,7 @@ class Scene:
         "opacity" (0 to 1), "color" (of constant coefficients), "harmonics" (of the others); "sh_degree", the degrees
         that it has less; and "drawing", whether it cannot say `antialiased` and `dilation`.
         """
-        return self._native.write(os.fspath(path))
+        return self._native.write(path_bytes(path))
 
     def __len__(self) -> int:
         return self._native.size
