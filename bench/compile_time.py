@@ -25,7 +25,7 @@ import tempfile
 import command_line
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-BUILD = os.environ.get("VORION_ROOT", os.path.join(ROOT, "build", "dev"))
+BUILD = os.environ.get("VORION_ROOT") or os.path.join(ROOT, "build", "dev")
 
 
 def user_time(*command, **environment):

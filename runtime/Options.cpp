@@ -2,8 +2,8 @@
 
 #include "vorion/isasim/Variables.h"
 #include "vorion/support/ClockText.h"
+#include "vorion/support/Environment.h"
 
-#include <cstdlib>
 #include <mutex>
 #include <utility>
 
@@ -18,7 +18,7 @@ constexpr std::pair<std::string DeviceOptions::*, const char *>
                         {&DeviceOptions::Time, "VORION_TIME"}};
 
 void readVariable(const char *Name, std::string &Text) {
-  if (const char *Value = std::getenv(Name))
+  if (const char *Value = environmentVariable(Name))
     Text = Value;
 }
 

@@ -1,8 +1,9 @@
 #include "vorion/support/Terminal.h"
 
+#include "vorion/support/Environment.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <string_view>
 #include <sys/ioctl.h>
@@ -10,17 +11,12 @@
 
 namespace vorion {
 
-static std::string_view variable(const char *Name) {
-  const char *Value = std::getenv(Name);
-  return Value ? Value : "";
-}
-
 bool canOverwrite() {
-  const std::string_view Kind = variable("TERM");
-  return isatty(STDERR_FILENO) != 0 && !Kind.empty() && Kind != "dumb";
+  const char *Kind = environmentVariable("TERM");
+  return isatty(STDERR_FILENO) != 0 && Kind && std::string_view(Kind) != "dumb";
 }
 
-bool canColour() { return canOverwrite() && variable("NO_COLOR").empty(); }
+bool canColour() { return canOverwrite() && !environmentVariable("NO_COLOR"); }
 
 std::optional<std::size_t> columnsOf(int File) {
   struct winsize Size{};

@@ -2,11 +2,11 @@
 
 #include "machine/MachineTexts.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Environment.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <string>
 #include <unistd.h>
@@ -38,7 +38,7 @@ void isasim::warnOfMisspeltVariables(std::string_view Tool) {
   for (char **Each = environ; *Each; ++Each) {
     const std::string_view Entry = *Each;
     const std::string Name(Entry.substr(0, Entry.find('=')));
-    if (!Name.starts_with("VORION_") ||
+    if (!Name.starts_with("VORION_") || !environmentVariable(Name.c_str()) ||
         std::ranges::find(Names, Name) != Names.end())
       continue;
     if (const std::string Meant = didYouMean(Name, Names); !Meant.empty())
@@ -49,7 +49,7 @@ void isasim::warnOfMisspeltVariables(std::string_view Tool) {
 
 void isasim::warnOfUnreadVariables(std::string_view Tool) {
   for (const ReadVariable &V : All)
-    if (V.Readers == "OpenCL programs" && std::getenv(V.Name))
+    if (V.Readers == "OpenCL programs" && environmentVariable(V.Name))
       printDiagnostic(
           Tool, "warning", V.Name,
           fmt::format("OpenCL programs alone read this variable{}",

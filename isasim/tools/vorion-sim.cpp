@@ -12,6 +12,7 @@
 #include "vorion/isasim/Variables.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Environment.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Tool.h"
 
@@ -38,7 +39,7 @@ Expected<std::string> readText(const std::string &Path) {
 
 /// \p Given, or the environment's \p Variable, which counts without it.
 std::string orVariable(const std::string &Given, const char *Variable) {
-  const char *Text = std::getenv(Variable);
+  const char *Text = environmentVariable(Variable);
   return Given.empty() && Text ? Text : Given;
 }
 

@@ -24,7 +24,10 @@ using namespace llvm;
 namespace {
 
 /// Null if nobody wants to know.
-const char *fileName() { return std::getenv(vorion::ResourcesVariable); }
+const char *fileName() {
+  const char *Name = std::getenv(vorion::ResourcesVariable);
+  return Name && *Name ? Name : nullptr;
+}
 
 /// Kind of the metadata of a function that has its divergent branches: strings
 /// of JSON.

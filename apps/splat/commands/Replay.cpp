@@ -8,6 +8,7 @@
 #include "sweep/Process.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Environment.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
@@ -193,7 +194,7 @@ Expected<Success> takeEnvironment(const ReplayArguments &A,
 /// it on, and does not watch this one.
 void takeClock(const Json &Result) {
   constexpr const char *Variable = "VORION_TIME";
-  if (Result.contains("time") && !std::getenv(Variable))
+  if (Result.contains("time") && !environmentVariable(Variable))
     setenv(Variable, "on", 1);
 }
 

@@ -1,8 +1,8 @@
 #include "commands/WatchedFiles.h"
 
 #include "doctor/Variables.h"
+#include "vorion/support/Environment.h"
 
-#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -11,7 +11,7 @@ namespace vorion::splat {
 std::vector<NamedFile> watchedFiles() {
   std::vector<NamedFile> All;
   for (const KnownVariable &Known : knownVariables()) {
-    const char *Text = std::getenv(Known.Name);
+    const char *Text = environmentVariable(Known.Name);
     if (!Known.Watches || !Text)
       continue;
     // FILE, or among others SETTING=FILE or CATEGORY:FILE.

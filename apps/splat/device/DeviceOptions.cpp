@@ -1,13 +1,13 @@
 #include "device/DeviceOptions.h"
 
-#include <cstdlib>
+#include "vorion/support/Environment.h"
 
 namespace vorion::splat {
 
 std::string DeviceOptions::text(const std::string &Variable) const {
   if (const auto Found = CommandLine.find(Variable); Found != CommandLine.end())
     return Found->second;
-  const char *Value = std::getenv(Variable.c_str());
+  const char *Value = environmentVariable(Variable.c_str());
   return Value ? Value : "";
 }
 

@@ -3,10 +3,10 @@
 #include "device/Kernels.h"
 #include "io/Hash.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Environment.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <utility>
 
@@ -50,7 +50,8 @@ std::optional<Error> fileError(const std::string &Name,
     const std::string Unread = lineFrom(Words, Log);
     if (Unread.empty())
       continue;
-    const char *Root = Words == Missing ? std::getenv("VORION_ROOT") : nullptr;
+    const char *Root =
+        Words == Missing ? environmentVariable("VORION_ROOT") : nullptr;
     return Error{
         "",
         fmt::format("kernel program '{}' cannot be compiled: {}, "

@@ -1,10 +1,10 @@
 #include "device/Programs.h"
 
+#include "vorion/support/Environment.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Hash.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -24,9 +24,8 @@ static fs::path thisProgram() {
 /// Where scripts/env.sh, or who installed the tree, says that it is; otherwise
 /// where this program is.
 static fs::path root() {
-  const char *Given = std::getenv("VORION_ROOT");
-  return Given && *Given ? fs::path(Given)
-                         : thisProgram().parent_path().parent_path();
+  const char *Given = environmentVariable("VORION_ROOT");
+  return Given ? fs::path(Given) : thisProgram().parent_path().parent_path();
 }
 
 /// Tells contents apart as fnv1a64() does, in an eighth of the steps: the

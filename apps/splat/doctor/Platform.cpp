@@ -2,6 +2,7 @@
 
 #include "device/Device.h"
 #include "doctor/Variables.h"
+#include "vorion/support/Environment.h"
 #include "vorion/support/Letters.h"
 
 #include <algorithm>
@@ -55,8 +56,8 @@ static std::string mendOfOpening(std::string_view Problem,
 }
 
 std::string vendorsPlace() {
-  const char *Set = std::getenv("OCL_ICD_VENDORS");
-  return Set && *Set ? Set : "/etc/OpenCL/vendors";
+  const char *Set = environmentVariable("OCL_ICD_VENDORS");
+  return Set ? Set : "/etc/OpenCL/vendors";
 }
 
 static std::vector<fs::path> icdFiles(const fs::path &Place) {

@@ -26,7 +26,8 @@ Diagnoses examineVariables(std::span<const std::string> Environment) {
   Diagnoses Found;
   for (const std::string_view Entry : Environment) {
     const std::string Name(Entry.substr(0, Entry.find('=')));
-    if (!Name.starts_with("VORION_"))
+    // An empty one counts as unset.
+    if (!Name.starts_with("VORION_") || Name.size() + 1 == Entry.size())
       continue;
     const auto *Known = std::ranges::find_if(
         Variables, [&](const KnownVariable &K) { return Name == K.Name; });

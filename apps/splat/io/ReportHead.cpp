@@ -47,7 +47,7 @@ Json reportHead(std::string_view Name, unsigned Version) {
   for (char **Each = environ; *Each; ++Each) {
     const std::string_view Text = *Each;
     const std::size_t Equals = Text.find('=');
-    if (Equals != std::string_view::npos &&
+    if (Equals != std::string_view::npos && Equals + 1 < Text.size() &&
         isRecordedVariable(Text.substr(0, Equals)))
       Environment[std::string(Text.substr(0, Equals))] =
           Text.substr(Equals + 1);

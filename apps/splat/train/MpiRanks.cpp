@@ -1,6 +1,8 @@
 // Processes under OpenMPI (VORION_MPI), or the only one.
 #include "train/Ranks.h"
 
+#include "vorion/support/Environment.h"
+
 #ifdef VORION_MPI
 #include <mpi.h>
 #endif
@@ -17,7 +19,9 @@ namespace {
 
 /// Set by OpenMPI's mpirun. What was started without it does not come near
 /// MPI, whose start costs time.
-const char *startedTogether() { return std::getenv("OMPI_COMM_WORLD_SIZE"); }
+const char *startedTogether() {
+  return environmentVariable("OMPI_COMM_WORLD_SIZE");
+}
 
 #ifdef VORION_MPI
 /// Errors of MPI itself end all processes, which is its default.

@@ -80,7 +80,7 @@ class Linux:
 
     def __init__(self, folder):
         """Compiles into the folder what all programs link."""
-        sources = os.path.join(os.environ.get("VORION_SOURCES", os.path.join(ROOT, "build", "sources")),
+        sources = os.path.join(os.environ.get("VORION_SOURCES") or os.path.join(ROOT, "build", "sources"),
                                "llvm", "compiler-rt", "lib", "builtins")
         objects = os.path.join(folder, "builtins")
         os.makedirs(objects, exist_ok=True)

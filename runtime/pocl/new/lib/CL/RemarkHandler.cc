@@ -2,13 +2,14 @@
 
 #include "RemarkHandler.h"
 
+#include "vorion/support/Environment.h"
+
 #include <llvm/ADT/StringExtras.h>
 #include <llvm/IR/DiagnosticInfo.h>
 #include <llvm/IR/DiagnosticPrinter.h>
 #include <llvm/Support/Regex.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 
 using namespace llvm;
@@ -20,7 +21,7 @@ namespace {
 /// The last pattern of VORION_REMARKS. The machine's compiler tells what is
 /// wrong with one.
 std::optional<Regex> wantedRemarks() {
-  const char *Options = std::getenv("VORION_REMARKS");
+  const char *Options = vorion::environmentVariable("VORION_REMARKS");
   std::optional<Regex> Wanted;
   for (StringRef Option : split(Options ? Options : "", ' '))
     if (Option.consume_front("-Rpass-missed="))

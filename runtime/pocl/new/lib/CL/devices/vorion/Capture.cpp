@@ -1,12 +1,13 @@
 #include "Capture.h"
 
+#include "vorion/support/Environment.h"
+
 #include <vorion_abi.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -79,7 +80,7 @@ std::string jsonText(const std::string &Text) {
 
 void captureLaunch(const LoadedKernel &Kernel,
                    const _cl_command_node &Command) {
-  const char *Folder = std::getenv("VORION_CAPTURE");
+  const char *Folder = environmentVariable("VORION_CAPTURE");
   if (!Folder)
     return;
   static std::atomic<unsigned> Launches{0};

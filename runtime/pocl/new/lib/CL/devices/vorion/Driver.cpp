@@ -7,6 +7,7 @@
 #include "MemoryOperations.h"
 #include "Messages.h"
 #include "ProgramKernels.h"
+#include "vorion/support/Environment.h"
 
 extern "C" {
 #include "common.h"
@@ -43,7 +44,7 @@ void keepSourceLines() {
     Wanted |= isOptionSet(Name);
   if (!Wanted)
     return;
-  const char *Flags = getenv("POCL_EXTRA_BUILD_FLAGS");
+  const char *Flags = environmentVariable("POCL_EXTRA_BUILD_FLAGS");
   setenv("POCL_EXTRA_BUILD_FLAGS",
          (std::string("-g ") + (Flags ? Flags : "")).c_str(), 1);
   setenv("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", "1", 1);
@@ -124,7 +125,7 @@ void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
 /// all others for groups of any size, too: no start asks for these, but
 /// vorion-clang does.
 int buildPoclBinary(cl_program Program, cl_uint Index) {
-  if (std::getenv("VORION_COMPILE_ALL") == nullptr)
+  if (environmentVariable("VORION_COMPILE_ALL") == nullptr)
     return CL_SUCCESS;
   return pocl_driver_build_poclbinary(Program, Index);
 }

@@ -1,5 +1,7 @@
 #include "Opening.h"
 
+#include "vorion/support/Environment.h"
+
 extern "C" {
 #include "devices.h"
 #include "pocl_util.h"
@@ -11,7 +13,6 @@ extern unsigned cl_context_count;
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <string>
@@ -164,7 +165,7 @@ bool isOptionSet(const char *Name) {
   const std::lock_guard Guard(Lock);
   return std::any_of(Given.begin(), Given.end(),
                      [&](const auto &O) { return O.first == Name; }) ||
-         std::getenv(Name) != nullptr;
+         environmentVariable(Name) != nullptr;
 }
 
 } // namespace vorion

@@ -3,6 +3,7 @@
 #include "CompilerLibrary.h"
 #include "FileState.h"
 #include "ToolServer.h"
+#include "vorion/support/Environment.h"
 
 extern "C" {
 #include "config.h"
@@ -12,7 +13,6 @@ extern "C" {
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
 #include <set>
@@ -40,13 +40,13 @@ constexpr size_t MaxRemarks = size_t{16} << 20;
 
 /// Options of vorion-clang, with blanks between: which remarks to print, and
 /// -mllvm (docs/backend.md).
-const char *remarkOptions() { return std::getenv("VORION_REMARKS"); }
+const char *remarkOptions() { return environmentVariable("VORION_REMARKS"); }
 
 /// Remarks change the options of LLVM, which one process keeps for all calls;
 /// and a process takes from its environment where reports of resources go.
 bool mayAskServers() {
-  const char *Wanted = std::getenv("VORION_TOOL_SERVERS");
-  return !remarkOptions() && !std::getenv("VORION_RESOURCES") &&
+  const char *Wanted = environmentVariable("VORION_TOOL_SERVERS");
+  return !remarkOptions() && !environmentVariable("VORION_RESOURCES") &&
          !(Wanted && std::string_view(Wanted) == "0");
 }
 
@@ -77,7 +77,7 @@ void printRemarks(const std::string &Output) {
 
 Tools::Tools() {
   std::vector<fs::path> Places;
-  if (const char *Given = std::getenv("VORION_ROOT"))
+  if (const char *Given = environmentVariable("VORION_ROOT"))
     Places.emplace_back(Given);
   else
     for (fs::path Folder = libraryFile().parent_path();
@@ -90,7 +90,7 @@ Tools::Tools() {
       Root = Place;
       return;
     }
-  const char *Given = std::getenv("VORION_ROOT");
+  const char *Given = environmentVariable("VORION_ROOT");
   Problem = "cannot find bin/vorion-clang below " +
             (Given ? "VORION_ROOT, '" + std::string(Given) + "'"
                    : libraryFile().parent_path().string() +
