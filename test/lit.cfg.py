@@ -54,7 +54,7 @@ features["torch"] = "/usr/lib/python3/dist-packages/torch"
 features["jsonschema"] = "/usr/lib/python3/dist-packages/jsonschema"
 features["data"] = os.path.join(root, "..", "shared", "data")
 # LLVM's own tests, as scripts/fetch-source.sh leaves them.
-features["llvm-tests"] = os.path.join(os.environ.get("VORION_SOURCES", os.path.join(root, "build", "sources")), "llvm-tests")
+features["llvm-tests"] = os.path.join(os.environ.get("VORION_SOURCES") or os.path.join(root, "build", "sources"), "llvm-tests")
 features["gdb-multiarch"] = shutil.which("gdb-multiarch") or "gdb-multiarch"
 features["qemu-riscv32"] = shutil.which("qemu-riscv32") or "qemu-riscv32"
 features["qemu-x86_64"] = shutil.which("qemu-x86_64") or "qemu-x86_64"
@@ -81,6 +81,13 @@ if shutil.which("unshare") and subprocess.run(
     config.available_features.add("own-mounts")
 else:
     lit_config.note("own-mounts is missing: tests that require it are skipped (unshare -rm may not mount a tmpfs)")
+# Root starts programs of the build as a user that is nobody.
+if os.geteuid() == 0 and subprocess.run(
+        ["test", "-x", os.path.join(build, "bin", "splat")], user=65534, group=65534, extra_groups=[], check=False).returncode == 0:
+    config.available_features.add("other-user")
+else:
+    lit_config.note("other-user is missing: tests that require it are skipped (root alone runs programs as another user, who must "
+                    "reach the build)")
 try:
     with open("/proc/cpuinfo", encoding="utf-8") as cpus:
         flags = cpus.read().split()

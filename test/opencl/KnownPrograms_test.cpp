@@ -5,10 +5,14 @@
 #include "TestDevice.h"
 
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
+#include <thread>
 #include <unistd.h>
+#include <vector>
 
 using vorion::test::TestDevice;
 
@@ -174,6 +178,36 @@ TEST_F(KnownPrograms, ReadTheirOwnFilesAgain) {
     }
   }
   fs::remove_all(Folder);
+}
+
+/// A build in another second gives another program, also if only an option or
+/// two halves of a word ask for the time.
+TEST_F(KnownPrograms, AskForTheTimeAgain) {
+  struct {
+    const char *Text, *Options;
+  } constexpr Asking[] = {
+      {"constant char text[] = __TIME__;", ""},
+      {"constant char text[] = T;", "-DT=__TIME__"},
+      {"#define JOIN(a, b) a##b\nconstant char text[] = JOIN(__TI, ME__);", ""},
+      {"constant char text[] = __DATE__ __TIME__;", ""},
+  };
+  // Minutes and seconds, as digits.
+  const std::string Kernel = unseen(R"(
+kernel void f(global int *o) {
+  const int end = sizeof(text) - 1;
+  *o = (text[end - 5] * 10 + text[end - 4]) * 100 + text[end - 2] * 10 +
+       text[end - 1];
+})");
+  std::vector<int> Before;
+  for (const auto &[Text, Options] : Asking)
+    Before.push_back(result(Device.build(Text + Kernel, Options)));
+  const std::time_t Built = std::time(nullptr);
+  while (std::time(nullptr) == Built)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (size_t I = 0; I < std::size(Asking); ++I)
+    EXPECT_NE(result(Device.build(Asking[I].Text + Kernel, Asking[I].Options)),
+              Before[I])
+        << Asking[I].Text << Asking[I].Options;
 }
 
 } // namespace

@@ -1,15 +1,16 @@
 #include "commands/Commands.h"
 
 #include "commands/OutputFile.h"
-#include "device/BuildRecord.h"
 #include "doctor/Host.h"
 #include "doctor/Platform.h"
 #include "doctor/Variables.h"
 #include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Environment.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/KernelCacheFolder.h"
 #include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 
@@ -47,9 +48,17 @@ Diagnoses examineAll(const DeviceOptions &Options) {
     std::ranges::move(Found, std::back_inserter(All));
   };
   const Vendors Loader = examineVendors(vendorsPlace());
-  const char *Root = std::getenv("VORION_ROOT");
-  Add({Loader.Found, examineTools(Root ? Root : "", Loader.Libraries),
-       examineCache(kernelCacheFolder())});
+  const char *Root = environmentVariable("VORION_ROOT");
+  Add({Loader.Found, examineTools(Root ? Root : "", Loader.Libraries)});
+  if (areKernelsCached()) {
+    Add(examineCache(findKernelCacheFolder()));
+    Add({examineSystemCache(systemKernelCacheFolder())});
+  } else {
+    Add({{DiagnosisState::Note, "kernel cache",
+          "POCL_KERNEL_CACHE turns it off, so every program compiles its own "
+          "kernels again",
+          "unset POCL_KERNEL_CACHE"}});
+  }
   // A library that ends programs would end this one.
   if (Diagnoses Broken = examineLibraries(Loader.Libraries); !Broken.empty())
     Add(std::move(Broken));

@@ -1,32 +1,16 @@
 #include "device/BuildRecord.h"
 
 #include "vorion/support/File.h"
+#include "vorion/support/KernelCacheFolder.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 namespace vorion::splat {
 
-namespace {
-
-std::string variable(const char *Name) {
-  const char *Value = std::getenv(Name);
-  return Value ? Value : "";
-}
-
-} // namespace
-
 std::string kernelCacheFolder() {
-  if (variable("POCL_KERNEL_CACHE") == "0")
-    return {};
-  if (std::string Set = variable("POCL_CACHE_DIR"); !Set.empty())
-    return Set;
-  if (const std::string Xdg = variable("XDG_CACHE_HOME"); !Xdg.empty())
-    return Xdg + "/pocl/kcache";
-  const std::string Home = variable("HOME");
-  return Home.empty() ? "" : Home + "/.cache/pocl/kcache";
+  return areKernelsCached() ? findKernelCacheFolder().Path : std::string();
 }
 
 BuildRecord::BuildRecord() : BuildRecord(kernelCacheFolder()) {}

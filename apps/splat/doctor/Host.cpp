@@ -2,11 +2,13 @@
 
 #include "vorion/support/File.h"
 #include "vorion/support/Letters.h"
+#include "vorion/support/Trust.h"
 
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -118,26 +120,62 @@ Contents contentsOf(const std::string &Folder) {
 
 } // namespace
 
-Diagnosis examineCache(const std::string &Folder) {
-  const std::string Mend = "set POCL_CACHE_DIR to a folder that you can write";
-  if (Folder.empty())
-    return {DiagnosisState::Note, "kernel cache",
-            "no folder keeps compiled kernels, so every program compiles its "
-            "own again",
-            Mend};
-  std::error_code Failed;
-  fs::create_directories(Folder, Failed);
-  if (Failed)
-    return {DiagnosisState::Fault, "kernel cache",
-            fmt::format("{}: {}", Folder, Failed.message()), Mend};
-  if (auto Writable = checkWritable(Folder + "/doctor"); !Writable)
-    return {DiagnosisState::Fault, "kernel cache",
-            fmt::format("{}: {}", Folder, Writable.error().What), Mend};
+static std::string sizeText(const std::string &Folder) {
   const Contents C = contentsOf(Folder);
-  return {DiagnosisState::Well, "kernel cache",
-          fmt::format("{} can be written, and has {}, {}", Folder,
-                      counted(C.Files, "file"), mebibytes(C.Bytes)),
-          ""};
+  return fmt::format("has {}, {}", counted(C.Files, "file"),
+                     mebibytes(C.Bytes));
+}
+
+Diagnoses examineCache(const KernelCacheFolder &Cache) {
+  const auto Said = [](DiagnosisState State, std::string Text) {
+    return Diagnosis{
+        State, "kernel cache", std::move(Text),
+        State == DiagnosisState::Well
+            ? ""
+            : "set POCL_CACHE_DIR to a folder that you alone can write"};
+  };
+  if (!Cache.Problem.empty())
+    return {Said(DiagnosisState::Fault, Cache.Problem)};
+  Diagnoses Found;
+  for (const std::string &Why : Cache.PassedOver)
+    Found.push_back(Said(DiagnosisState::Note, Why));
+  if (Cache.Path.empty())
+    Found.push_back(Said(DiagnosisState::Note,
+                         "no folder keeps compiled kernels, so every program "
+                         "compiles its own again"));
+  else if (auto Writable = checkWritable(Cache.Path + "/doctor"); !Writable)
+    Found.push_back(
+        Said(DiagnosisState::Fault,
+             fmt::format("{}: {}", Cache.Path, Writable.error().What)));
+  else
+    Found.push_back(Said(DiagnosisState::Well,
+                         fmt::format("{} can be written, and {}", Cache.Path,
+                                     sizeText(Cache.Path))));
+  return Found;
+}
+
+Diagnosis examineSystemCache(const std::string &Folder) {
+  Diagnosis Found{DiagnosisState::Well, "system cache", "", ""};
+  const auto Fault = [&Found](std::string Text, std::string Mend) {
+    Found.State = DiagnosisState::Fault;
+    Found.Text = std::move(Text);
+    Found.Mend = std::move(Mend);
+    return Found;
+  };
+  std::error_code Failed;
+  if (!fs::exists(Folder, Failed)) {
+    Found.Text =
+        fmt::format("{} is not there; root can fill it for all users", Folder);
+    return Found;
+  }
+  if (std::string Why = whyUntrusted(Folder, 0); !Why.empty())
+    return Fault(fmt::format("{}, so {} is not read", Why, Folder),
+                 "let root own it, and nobody else write it");
+  if (fs::directory_iterator Unread(Folder, Failed); Failed)
+    return Fault(fmt::format("{}: {}", Folder, Failed.message()),
+                 fmt::format("type, as root: chmod -R a+rX {}", Folder));
+  Found.Text = fmt::format("{} {}", Folder, sizeText(Folder));
+  return Found;
 }
 
 } // namespace vorion::splat

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "doctor/Diagnosis.h"
+#include "vorion/support/KernelCacheFolder.h"
 
 #include <cstdint>
 #include <string>
@@ -21,7 +22,9 @@ Diagnosis examineMemory();
 /// The widest vectors of this processor that the simulator uses.
 Diagnosis examineVectors();
 
-/// \p Folder, the cache of compiled kernels; empty if there is none.
-Diagnosis examineCache(const std::string &Folder);
+/// The cache of compiled kernels, and the folders that were passed over for it.
+Diagnoses examineCache(const KernelCacheFolder &Cache);
+/// \p Folder, which root has filled for all users, if it is there.
+Diagnosis examineSystemCache(const std::string &Folder);
 
 } // namespace vorion::splat

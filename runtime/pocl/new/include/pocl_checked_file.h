@@ -26,8 +26,9 @@ POCL_EXPORT
 int pocl_write_checked_file(const char *path, const char *content,
                             uint64_t size);
 
-/* The contents without the checksum, to be freed by the caller. A damaged file
- * is removed, which standard error is told of. */
+/* The contents without the checksum, to be freed by the caller. A file that is
+ * damaged or may be another user's is removed, which standard error is told of.
+ * What is missing then becomes a copy of the system's, if that has it. */
 POCL_EXPORT
 pocl_checked_file_status pocl_read_checked_file(const char *path,
                                                 char **content, uint64_t *size);
@@ -38,6 +39,10 @@ int pocl_write_all(int fd, const char *content, uint64_t size);
 
 /* The checksum of bytes, which any change of a single byte changes. */
 uint64_t pocl_checksum(const void *bytes, uint64_t size);
+
+/* Keeps a sentence's beginning that says why the cache is of no use, unless
+ * this thread keeps another reason already. */
+void pocl_note_cache_problem(const char *text);
 
 /* Keeps errno as the reason why something cannot be done with the path, unless
  * this thread keeps another reason already. */

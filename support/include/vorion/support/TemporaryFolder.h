@@ -1,7 +1,9 @@
 /// A folder for as long as somebody needs it.
 #pragma once
 
+#include "vorion/support/Environment.h"
 #include "vorion/support/Expected.h"
+#include "vorion/support/Trust.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -10,40 +12,49 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace vorion {
 
-/// Below TMPDIR; it goes with all that is in it when this does.
+/// Below TMPDIR, where nobody else can replace it. It goes with all that is in
+/// it when this does.
 class TemporaryFolder {
 public:
   /// Its name begins with \p Prefix.
   static Expected<TemporaryFolder> make(std::string_view Prefix) {
-    std::error_code Failed;
-    std::string Path = (std::filesystem::temp_directory_path(Failed) /
+    const char *Place = environmentVariable("TMPDIR");
+    std::string Path = (std::filesystem::path(Place ? Place : "/tmp") /
                         (std::string(Prefix) + "-XXXXXX"))
                            .string();
-    if (Failed || !mkdtemp(Path.data()))
-      return Error{"", "cannot make a temporary folder: " +
-                           (Failed ? Failed.message()
-                                   : std::string(std::strerror(errno))) +
-                           ", expected TMPDIR to allow one"};
-    return TemporaryFolder(std::move(Path));
+    if (!mkdtemp(Path.data()))
+      return cannotMake(std::strerror(errno));
+    TemporaryFolder Made(std::move(Path));
+    if (const std::string Why = whyUntrusted(Made.Path, ::geteuid());
+        !Why.empty())
+      return cannotMake(Why);
+    return Made;
   }
   TemporaryFolder(TemporaryFolder &&From) noexcept
-      : Path(std::exchange(From.Path, {})) {}
+      : Path(std::exchange(From.Path, {})), Maker(From.Maker) {}
   TemporaryFolder &operator=(TemporaryFolder &&) = delete;
   ~TemporaryFolder() {
     std::error_code Ignored;
-    if (!Path.empty())
+    // A forked process leaves it to its parent.
+    if (!Path.empty() && Maker == ::getpid())
       std::filesystem::remove_all(Path, Ignored);
   }
 
   const std::string &path() const { return Path; }
 
 private:
+  static Error cannotMake(const std::string &Why) {
+    return {"", "cannot make a temporary folder: " + Why +
+                    ", expected TMPDIR to allow one"};
+  }
   explicit TemporaryFolder(std::string PathIn) : Path(std::move(PathIn)) {}
   std::string Path;
+  pid_t Maker = ::getpid();
 };
 
 } // namespace vorion

@@ -1,14 +1,17 @@
 #include "pocl_checked_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CL/cl_vorion.h>
 
 #include "pocl_cache.h"
+#include "pocl_cache_folders.h"
 #include "pocl_file_util.h"
 
 #define CHECKSUM_SIZE sizeof(uint64_t)
@@ -69,15 +72,40 @@ int pocl_write_checked_file(const char *path, const char *content,
   return status;
 }
 
-pocl_checked_file_status
-pocl_read_checked_file(const char *path, char **content, uint64_t *size) {
+/* All of a regular file that this user alone can have written; NULL of
+ * another. */
+static char *read_own_file(const char *path, uint64_t *size) {
+  /* a pipe would wait for its writer */
+  const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  struct stat is;
+  char *bytes = NULL;
+  if (fd >= 0 && fstat(fd, &is) == 0 && S_ISREG(is.st_mode) &&
+      is.st_uid == geteuid() && (is.st_mode & (S_IWGRP | S_IWOTH)) == 0 &&
+      (bytes = malloc(is.st_size + 1)) != NULL) {
+    *size = 0;
+    ssize_t got = 0;
+    while (*size < (uint64_t)is.st_size &&
+           (got = read(fd, bytes + *size, is.st_size - *size)) != 0) {
+      if (got > 0)
+        *size += got;
+      else if (errno != EINTR)
+        break;
+    }
+  }
+  if (fd >= 0)
+    close(fd);
+  return bytes;
+}
+
+static pocl_checked_file_status read_checked(const char *path, char **content,
+                                             uint64_t *size) {
   *content = NULL;
   *size = 0;
   if (access(path, F_OK) != 0)
     return POCL_CHECKED_FILE_NONE;
-  char *bytes = NULL;
   uint64_t length = 0;
-  if (pocl_read_file(path, &bytes, &length) == 0 && length >= CHECKSUM_SIZE) {
+  char *bytes = read_own_file(path, &length);
+  if (bytes != NULL && length >= CHECKSUM_SIZE) {
     uint64_t checksum;
     length -= CHECKSUM_SIZE;
     memcpy(&checksum, bytes + length, CHECKSUM_SIZE);
@@ -95,13 +123,27 @@ pocl_read_checked_file(const char *path, char **content, uint64_t *size) {
   return POCL_CHECKED_FILE_DAMAGED;
 }
 
-void pocl_note_file_problem(const char *path, const char *what) {
+pocl_checked_file_status
+pocl_read_checked_file(const char *path, char **content, uint64_t *size) {
+  const pocl_checked_file_status own = read_checked(path, content, size);
+  if (own == POCL_CHECKED_FILE_OK || pocl_cache_take_from_system(path) != 0)
+    return own;
+  return read_checked(path, content, size);
+}
+
+void pocl_note_cache_problem(const char *text) {
   if (problem[0] == 0)
     snprintf(problem, sizeof(problem),
              CL_KERNEL_CACHE_PROBLEM_VORION
-             "%s: %s: %s, expected a folder that can be written and has room "
-             "(POCL_CACHE_DIR, XDG_CACHE_HOME or HOME names it)",
-             path, what, strerror(errno));
+             "%s, expected a folder that you alone can write, with room "
+             "(POCL_CACHE_DIR names it)",
+             text);
+}
+
+void pocl_note_file_problem(const char *path, const char *what) {
+  char text[sizeof(problem)];
+  snprintf(text, sizeof(text), "%s: %s: %s", path, what, strerror(errno));
+  pocl_note_cache_problem(text);
 }
 
 const char *pocl_file_problem(void) { return problem[0] ? problem : NULL; }

@@ -100,8 +100,7 @@ bool namesItsProgram(const char *Source, const char *Options,
     }
     for (const char *Other :
          {"include_next", "import", "embed", "__has_include",
-          "__has_include_next", "__has_embed", "__DATE__", "__TIME__",
-          "__TIMESTAMP__"})
+          "__has_include_next", "__has_embed"})
       if (Word == Other)
         return false;
   }
@@ -198,6 +197,8 @@ bool takeKnownProgram(cl_program Program, cl_uint Index, const Tools &ToolSet) {
 
 void keepKnownProgram(cl_program Program, cl_uint Index, const Tools &ToolSet) {
   auto &Hash = Program->build_hash[Index];
+  if (Hash[0] == '_') // it goes with this program (pocl_cache_folders.h)
+    return;
   const std::string Built(reinterpret_cast<const char *>(Hash), sizeof(Hash));
   const std::string Place = placeOf(Program, Index, ToolSet);
   std::memcpy(Hash, Built.data(), sizeof(Hash));
