@@ -72,7 +72,10 @@ cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
 }
 
 cl_int uninit(unsigned, cl_device_id Device) {
-  delete static_cast<VorionDevice *>(Device->data);
+  // A forked process has no thread that could be ended.
+  auto *const Own = static_cast<VorionDevice *>(Device->data);
+  if (Own && !Own->Thread.isElsewhere())
+    delete Own;
   Device->data = nullptr;
   return CL_SUCCESS;
 }

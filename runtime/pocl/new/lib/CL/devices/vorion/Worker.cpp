@@ -1,8 +1,8 @@
 #include "Worker.h"
 #include "Launch.h"
+#include "Messages.h"
 
 #include <set>
-#include <unistd.h>
 
 extern "C" {
 #include "common.h"
@@ -45,7 +45,28 @@ Worker::~Worker() {
   Thread.join();
 }
 
+bool Worker::isElsewhere() const { return getpid() != Process; }
+
+/// Nothing would ever execute \p Command. PoCL holds the lock of its event, so
+/// another thread says so.
+static void failElsewhere(_cl_command_node *Command) {
+  static std::once_flag Told;
+  std::call_once(Told, [Command] {
+    tellFailure(Command->sync.event.event->context, CL_OUT_OF_RESOURCES,
+                "this process was forked after the device was opened, and has "
+                "none of its threads, expected one that opens it itself");
+  });
+  std::thread([Command] {
+    pocl_update_event_finished(CL_OUT_OF_RESOURCES, "failElsewhere", __LINE__,
+                               Command->sync.event.event, "forked");
+  }).detach();
+}
+
 void Worker::push(_cl_command_node *Command) {
+  if (isElsewhere()) {
+    failElsewhere(Command);
+    return;
+  }
   {
     std::lock_guard Guard(Lock);
     Ready.push_back(Command);

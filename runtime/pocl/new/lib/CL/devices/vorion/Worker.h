@@ -9,6 +9,7 @@
 #include <deque>
 #include <mutex>
 #include <thread>
+#include <unistd.h>
 
 namespace vorion {
 
@@ -19,8 +20,12 @@ public:
   ~Worker();
 
   /// \p Command waits for nothing any more; if something that it depends on
-  /// has failed, it is not executed and fails, too.
+  /// has failed, it is not executed and fails, too. So does every command of a
+  /// forked process.
   void push(_cl_command_node *Command);
+
+  /// Whether this process was forked from the one that has the thread.
+  bool isElsewhere() const;
 
   /// For a thread of the program: if it is the first one, and it ends or calls
   /// exit(), it waits until all workers have executed what they were given.
@@ -40,6 +45,7 @@ private:
   std::deque<_cl_command_node *> Ready;
   bool Executing = false;
   bool Ending = false;
+  const pid_t Process = getpid();
   std::thread Thread;
 };
 
