@@ -176,6 +176,50 @@ kernel void edges(global const float *x, global const float *y,
   }
 }
 
+/// Where a kernel's constants and ranges show that C would leave the result of
+/// a step inside a function undefined.
+TEST(Builtins, ResultsAreDefinedForConstantsAndKnownRanges) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  const cl::Program Program = Device.build(R"(
+float twice(float x) { return exp(x) * 2.0f + exp2(-x) + tgamma(x); }
+kernel void look(global const int *least, global const float *x,
+                 global int *out) {
+  const int a = least[0];
+  const long b = (long)a << 32;
+  const char c = a >> 24;
+  const int good[] = {
+      abs(a) == 0x80000000u, abs(a) >> 31 == 1, abs(a) > 0x7fffffffu,
+      abs(b) >> 63 == 1, abs(c) >> 7 == 1, abs((int2)(a, 1)).x > 0x7fffffffu,
+      abs_diff(a, 5) == 0x80000005u,
+      abs_diff((int)0x80000000u, a & 7) == 0x80000000u,
+      abs_diff(a, INT_MAX) == UINT_MAX, abs_diff(b, LONG_MAX) == ULONG_MAX,
+      mad_sat(a, a, a) == INT_MAX, mad_hi(a, 2, a) == INT_MAX,
+      isnan(exp(NAN)), !(exp(NAN) < 1.0f), isnan(exp(x[0]) + exp2(NAN)),
+      isnan(tgamma(NAN)), isnan(twice(NAN)), isnan(exp((double)NAN)),
+      isnan(native_tan(NAN)), isinf(exp(INFINITY)), exp(-INFINITY) == 0.0f,
+      ldexp(1.0f, INT_MIN) == 0.0f, isinf(ldexp(1.0f, INT_MAX)),
+      pown(-1.0f, INT_MIN) == 1.0f, rootn(1.0f, INT_MIN) == 1.0f,
+      convert_char_sat(NAN) == 0, convert_uchar_sat(1e30f) == 255,
+      vload_half(0, (global const half *)least) == 0.0f};
+  *out = 0;
+  for (int i = 0; i < sizeof(good) / sizeof(int); ++i)
+    *out += !good[i] * (i + 1);
+}
+)");
+  cl::Kernel Kernel(Program, "look");
+  const cl::Buffer Least =
+      Device.upload(std::vector<int32_t>{std::numeric_limits<int32_t>::min()});
+  const cl::Buffer X = Device.upload(std::vector<float>{1});
+  const cl::Buffer Out = Device.upload(std::vector<int32_t>{-1});
+  Kernel.setArg(0, Least);
+  Kernel.setArg(1, X);
+  Kernel.setArg(2, Out);
+  Device.run(Kernel, 1, 1);
+  EXPECT_EQ(Device.download<int32_t>(Out, 1)[0], 0)
+      << "the sum of the places of wrong ones, from 1";
+}
+
 TEST(Builtins, PrintfWritesWholeLinesInTheOrderOfLanes) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
