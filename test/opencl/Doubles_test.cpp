@@ -232,6 +232,30 @@ TEST_F(Doubles, ComeFromWholeNumbersInEveryMode) {
   }
 }
 
+/// Either zero would be allowed, but not another one for constants.
+TEST_F(Doubles, ZerosHaveAnOrderForMinimaAndMaxima) {
+  const cl::Program Program = Device.build(R"(
+kernel void f(global const double *x, global double *out) {
+  out[0] = fmin(x[0], x[1]);
+  out[1] = fmin(x[1], x[0]);
+  out[2] = fmax(x[0], x[1]);
+  out[3] = fmax(x[1], x[0]);
+  out[4] = fmin(0.0, -0.0);
+  out[5] = fmax(-0.0, 0.0);
+})");
+  cl::Kernel Kernel(Program, "f");
+  const cl::Buffer In = Device.upload(std::vector<double>{0.0, -0.0});
+  const cl::Buffer Out = Device.upload(std::vector<double>(6));
+  Kernel.setArg(0, In);
+  Kernel.setArg(1, Out);
+  Device.run(Kernel, 1, 1);
+  const auto O = Device.download<double>(Out, 6);
+  for (const std::size_t Least : {0, 1, 4})
+    EXPECT_TRUE(std::signbit(O[Least])) << Least;
+  for (const std::size_t Greatest : {2, 3, 5})
+    EXPECT_FALSE(std::signbit(O[Greatest])) << Greatest;
+}
+
 TEST_F(Doubles, HaveConstantsArgumentsVectorsAndPrintf) {
   const cl::Program Program = Device.build(R"(
 typedef struct { char c; double x; } part;
