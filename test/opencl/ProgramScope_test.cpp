@@ -114,6 +114,35 @@ kernel void change(global int *out) {
   EXPECT_EQ(run(Program, "look"), std::vector<int32_t>{1000 + (0xFF << 10)});
 }
 
+TEST_F(ProgramScope, SpecialNumbersAreConstants) {
+  const cl::Program Program = build(R"(
+#pragma OPENCL EXTENSION cl_khr_fp16 : enable
+constant float alone = NAN;
+constant float some[] = {NAN, INFINITY, -HUGE_VALF, MAXFLOAT, -NAN};
+constant float4 vectors[1] = {(float4)(NAN, 1.0f, -INFINITY, NAN)};
+constant double wide[] = {NAN, HUGE_VAL};
+constant struct { int i; float f[2]; } record = {1, {2.0f, NAN}};
+global half narrow = NAN;
+float variable = NAN;
+kernel void look(global int *out) {
+  static constant float own[] = {1.0f, NAN};
+  const float mine[] = {NAN, 1.0f};
+  int i = get_global_id(0) & 1;
+  int good[] = {isnan(alone), isnan(some[i]), some[i + 1] == INFINITY,
+                some[i + 2] == -INFINITY, some[i + 3] == FLT_MAX,
+                isnan(some[i + 4]), isnan(vectors[i].x),
+                isinf(vectors[i].z) && isnan(vectors[i].w),
+                isnan(wide[i]) && isinf(wide[i + 1]), isnan(record.f[i + 1]),
+                isnan(narrow), isnan(variable), isnan(own[i + 1]),
+                isnan(mine[i])};
+  out[0] = 0;
+  for (int k = 0; k < 14; ++k)
+    out[0] |= !!good[k] << k;
+}
+)");
+  EXPECT_EQ(run(Program, "look"), std::vector<int32_t>{(1 << 14) - 1});
+}
+
 TEST_F(ProgramScope, PointersGoToOtherVariables) {
   const cl::Program Program = build(R"(
 global int numbers[4] = {10, 20, 30, 40};
