@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 using vorion::test::TestDevice;
@@ -304,6 +306,94 @@ TEST_F(ImageFormats, EveryFormatIsWrittenAsTheStandardSays) {
             << nameOf(Format) << ", channel " << C << " of texel " << I;
       }
     }
+  }
+}
+
+/// Colours around the values at which the conversion to a type of channels
+/// rounds or saturates, and special numbers. Each is in every channel once.
+std::vector<uint32_t> edgesOf(cl_channel_type Type) {
+  std::vector<uint32_t> Edges;
+  if (kindOf(Type) == 'f') {
+    std::vector<float> Values = {0.0F,    NAN,      INFINITY,     1e20F,
+                                 1e-40F,  65504.0F, 65520.0F,     2049.0F,
+                                 2051.0F, 0x1p-14F, 0x1.ffep-15F, 0x1.8p-24F,
+                                 0x1p-25F};
+    for (const float Most : {127.0F, 255.0F, 32767.0F, 65535.0F})
+      for (const float Step :
+           {0.5F, 1.5F, 2.5F, Most / 2, Most - 0.5F, Most, Most + 1.0F})
+        Values.push_back(Step / Most);
+    for (const float Value : Values)
+      for (const float Near : {Value, std::nextafter(Value, 0.0F),
+                               std::nextafter(Value, INFINITY)})
+        for (const float Signed : {Near, -Near})
+          Edges.push_back(std::bit_cast<uint32_t>(Signed));
+  } else {
+    for (const unsigned Bit : {0, 7, 8, 15, 16, 31})
+      for (const uint32_t Beside : {-1, 0, 1}) {
+        Edges.push_back((1U << Bit) + Beside);
+        Edges.push_back(-(1U << Bit) + Beside);
+      }
+  }
+  std::vector<uint32_t> Colors(4 * Texels);
+  for (std::size_t I = 0; I < Colors.size(); ++I)
+    Colors[I] = Edges[(I / 4 + I % 4) % Edges.size()];
+  return Colors;
+}
+
+TEST_F(ImageFormats, EveryFormatIsFilledAsKernelsWriteIt) {
+  for (const cl::ImageFormat &Format : Formats) {
+    const cl_channel_type Type = Format.image_channel_data_type;
+    const std::vector<uint32_t> Colors = edgesOf(Type);
+    std::array<cl::Image2D, 2> Images;
+    for (cl::Image2D &Image : Images)
+      Image = cl::Image2D(Device.context(), CL_MEM_READ_WRITE, Format, 16,
+                          Texels / 16);
+    const cl::Buffer In = Device.upload(Colors);
+    cl::Kernel Kernel(Program, (std::string("write_") + kindOf(Type)).c_str());
+    Kernel.setArg(0, Images[0]);
+    Kernel.setArg(1, In);
+    Device.run(Kernel, Texels, 64);
+    for (std::size_t I = 0; I < Texels; ++I)
+      ASSERT_EQ(clEnqueueFillImage(
+                    Device.queue()(), Images[1](), &Colors[4 * I],
+                    std::array<std::size_t, 3>{I % 16, I / 16, 0}.data(),
+                    std::array<std::size_t, 3>{1, 1, 1}.data(), 0, nullptr,
+                    nullptr),
+                CL_SUCCESS);
+    const std::size_t Size = randomTexels(Format).size();
+    const auto Written =
+        Device.download<uint8_t>(Images[0], {16, Texels / 16, 1}, Size);
+    const auto Filled =
+        Device.download<uint8_t>(Images[1], {16, Texels / 16, 1}, Size);
+    const unsigned Bytes = bytesOf(Type);
+    // All NaNs are one to a half.
+    const auto BitsOf = [&](const std::vector<uint8_t> &Texels, std::size_t I) {
+      const uint32_t Bits = channelBits(Texels, I, Bytes);
+      return Type == CL_HALF_FLOAT && (Bits & 0x7fff) > 0x7c00 ? 0x7e00 : Bits;
+    };
+    for (std::size_t I = 0; I < Size / Bytes; ++I)
+      ASSERT_EQ(BitsOf(Filled, I), BitsOf(Written, I))
+          << nameOf(Format) << ", channel " << I % (Size / Bytes / Texels)
+          << " of color " << I / (Size / Bytes / Texels);
+  }
+}
+
+/// To nearest even, to infinity from halfway between the largest half and
+/// 2^16 on.
+TEST_F(ImageFormats, FilledHalvesAreTheNearest) {
+  const std::vector<std::pair<float, uint16_t>> Cases = {
+      {65519.0F, 0x7bff},     {65520.0F, 0x7c00}, {-65519.9F, 0xfbff},
+      {2049.0F, 0x6800},      {2051.0F, 0x6802},  {0.1F, 0x2e66},
+      {0x1p-25F, 0x0000},     {0x1.8p-24F, 2},    {0x1.000002p-25F, 1},
+      {0x1.ffep-15F, 0x0400}, {-0.0F, 0x8000},    {-1e-30F, 0x8000},
+      {INFINITY, 0x7c00}};
+  const cl::Image2D Image(Device.context(), CL_MEM_READ_WRITE,
+                          cl::ImageFormat(CL_R, CL_HALF_FLOAT), 1, 1);
+  for (const auto &[Value, Bits] : Cases) {
+    ASSERT_EQ(Device.queue().enqueueFillImage(
+                  Image, cl_float4{{Value, 0, 0, 0}}, {0, 0, 0}, {1, 1, 1}),
+              CL_SUCCESS);
+    EXPECT_EQ(Device.download<uint16_t>(Image, {1, 1, 1}, 1)[0], Bits) << Value;
   }
 }
 
