@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Runs every overload of the built-in functions of OpenCL C, and compares its results with the standard's.
 
-usage: builtin_values.py BUILD_FOLDER [--share] [--only PATTERN] [--jobs N] [--options TEXT]
+usage: builtin_values.py BUILD_FOLDER [--share] [--only PATTERN] [--jobs N] [--options TEXT] [--folded SEED]
 
 The overloads are those that clang's header declares for OpenCL C 3.0 and 1.2. Of each, hundreds of values are computed:
-special ones, and random ones of fixed seeds. The references are in values/, by family. Exit codes: 0 all agree, 1 some do
-not, or a function has no reference; 77 skipped.
+special ones, and random ones of fixed seeds. The references are in values/, by family. --folded adds calls with constants
+and known ranges whose results are used (values/folded.py). Exit codes: 0 all agree, 1 some do not, or a function has no
+reference; 77 skipped.
 """
 
 import argparse
@@ -29,6 +30,7 @@ from declarations import declarations
 from values import (atomics, bits, conversions, copies, floats, geometric, groups, images, integers, mathematics, memory,
                     relations)
 from values.device import Device
+from values.folded import fold
 from values.formats import Vector
 from values.units import Overload
 
@@ -68,9 +70,9 @@ def overloads(build):
     return list(found.values())
 
 
-def made(overload):
+def made(overload, families=FAMILIES):
     """A unit of the first family that knows the function, or None."""
-    return next((u for u in (family.unit(overload) for family in FAMILIES) if u), None)
+    return next((u for u in (family.unit(overload) for family in families) if u), None)
 
 
 def tested_elsewhere(declaration):
@@ -87,7 +89,7 @@ _devices = {}
 
 def run(task):
     """(overload, lines) of each of some; None instead of lines where there is no reference."""
-    version, build_options, overloads_of = task
+    version, build_options, seed, overloads_of = task
     if version not in _devices:
         _devices[version] = Device([f"-cl-std={version}", *build_options])
     units = [(o, made(o)) for o in overloads_of]
@@ -95,6 +97,8 @@ def run(task):
     alike = collections.defaultdict(list)
     for _, unit in units:
         if unit:
+            if seed is not None:
+                fold(unit, seed)
             alike[unit.items, unit.group, bool(unit.images)].append(unit)
     for (_, _, images_of), group in alike.items():
         # A kernel has few images.
@@ -131,6 +135,7 @@ def main():
     parser.add_argument("--only", default="", help="functions whose names match")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--options", default="", help="more options of the kernels' builds")
+    parser.add_argument("--folded", type=int, metavar="SEED", help="also calls with constants and known ranges")
     options = parser.parse_args()
 
     build = os.path.abspath(options.build)
@@ -145,7 +150,7 @@ def main():
     groups, missing = collections.defaultdict(list), []
     for version, overload in found:
         groups[version, width_of(overload), is_conversion(overload)].append(overload)
-    tasks = [(key[0], options.options.split(), units[n:n + UNITS_OF_KERNEL]) for key, units in groups.items()
+    tasks = [(key[0], options.options.split(), options.folded, units[n:n + UNITS_OF_KERNEL]) for key, units in groups.items()
              for n in range(0, len(units), UNITS_OF_KERNEL)]
     wrong = collections.Counter()
     count = elsewhere = 0

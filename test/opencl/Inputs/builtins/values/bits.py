@@ -70,7 +70,7 @@ def of_vectors(overload):
         return compared(found[0], result.element, wanted, lambda k: [v for a in rows[k] for v in a])
 
     return Unit(overload, ITEMS, group_of(ITEMS), [stored(c, v.element) for c, v in zip(table, values)],
-                [ITEMS * result.element.storage.itemsize], text, check)
+                [ITEMS * result.element.storage.itemsize], text, check, table)
 
 
 def unit(overload):

@@ -140,4 +140,4 @@ def unit(overload):
         return compared(found[0], result.element, wanted, lambda k: [v for a in rows[k // result.width] for v in a])
 
     return Unit(overload, ITEMS, group_of(ITEMS), [stored(c, vector.element) for c in table],
-                [ITEMS * result.width * result.element.storage.itemsize], text, check)
+                [ITEMS * result.width * result.element.storage.itemsize], text, check, table)

@@ -140,7 +140,7 @@ def shuffle(overload):
         return compared(found[0], result.element, wanted, lambda k: (f"work-item {k // result.width}",))
 
     return Unit(overload, items, group_of(items), [stored(c, v.element) for c, v in zip(table, values)],
-                [items * result.width * result.element.storage.itemsize], text, check)
+                [items * result.width * result.element.storage.itemsize], text, check, table)
 
 
 def unit(overload):

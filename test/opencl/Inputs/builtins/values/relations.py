@@ -63,7 +63,7 @@ def any_or_all(overload, values):
         reduce = {"any": any, "all": all}[overload.name]
         return compared(found[0], Vector("int").element, [int(reduce(v < 0 for v in row)) for row in rows], lambda k: rows[k])
 
-    return Unit(overload, items, group_of(items), [stored(column, vector.element)], [4 * items], text, check)
+    return Unit(overload, items, group_of(items), [stored(column, vector.element)], [4 * items], text, check, [column])
 
 
 def unit(overload):

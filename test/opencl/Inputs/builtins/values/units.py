@@ -56,13 +56,15 @@ class Overload:
 
 
 class Unit:
-    def __init__(self, overload, items, group, inputs, output_sizes, text, check):
+    def __init__(self, overload, items, group, inputs, output_sizes, text, check, columns=None):
         self.overload, self.items, self.group, self.text = overload, items, group, text
         self.inputs, self.output_sizes = inputs, output_sizes
         # Of values/images.py; what is in those that are written follows the outputs.
         self.images = []
         # Takes the outputs as bytes, gives a line for each mismatch.
         self.check = check
+        # The values of each parameter that is no pointer, one item's after the other's; None where it is not said.
+        self.columns = columns
 
 
 class AnyOf(tuple):
@@ -221,4 +223,4 @@ def componentwise(overload, table, reference, bits=None, results=None):
         return [line for a, v, w in zip(arrays, outputs, wanted)
                 for line in compared(a, bits or v.element, w, lambda k: rows_of[k])]
 
-    return Unit(overload, items, group_of(items), inputs, sizes, text, check)
+    return Unit(overload, items, group_of(items), inputs, sizes, text, check, None if bits else table)
