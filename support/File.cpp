@@ -37,7 +37,10 @@ std::optional<std::size_t> readSome(int From, std::byte *To, std::size_t Size) {
 
 /// What is no regular file.
 const char *kindOf(mode_t Mode) {
-  return S_ISDIR(Mode) ? "a folder" : S_ISFIFO(Mode) ? "a pipe" : "a device";
+  return S_ISDIR(Mode)    ? "a folder"
+         : S_ISFIFO(Mode) ? "a pipe"
+         : S_ISSOCK(Mode) ? "a socket"
+                          : "a device";
 }
 
 /// A file that is open to be read, and what fstat() says of it.
@@ -46,10 +49,20 @@ struct OpenFile {
   struct stat Info;
 };
 
+Error notRegular(const std::string &Path, mode_t Mode) {
+  return {Path, fmt::format("{}, expected a regular file", kindOf(Mode))};
+}
+
 Expected<OpenFile> openFile(const std::string &Path, bool OnlyRegular) {
-  if (auto Named = checkName(Path); !Named)
-    return Named.error();
-  // Without O_NONBLOCK, opening a pipe waits for its writer.
+  if (auto Checked = checkName(Path); !Checked)
+    return Checked.error();
+  // A pipe that is only looked at must not be opened: its writer would go on,
+  // and lose what it writes.
+  struct stat Named{};
+  if (OnlyRegular && ::stat(Path.c_str(), &Named) == 0 &&
+      !S_ISREG(Named.st_mode))
+    return notRegular(Path, Named.st_mode);
+  // One that has taken the name since then would wait for its writer.
   const int Wait = OnlyRegular ? O_NONBLOCK : 0;
   OpenFile O{
       Descriptor(::open(Path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | Wait)),
@@ -57,8 +70,7 @@ Expected<OpenFile> openFile(const std::string &Path, bool OnlyRegular) {
   if (O.File.number() < 0 || ::fstat(O.File.number(), &O.Info) != 0)
     return cannot(Path, "open", errno);
   if (OnlyRegular && !S_ISREG(O.Info.st_mode))
-    return Error{Path, fmt::format("{}, expected a regular file",
-                                   kindOf(O.Info.st_mode))};
+    return notRegular(Path, O.Info.st_mode);
   return O;
 }
 

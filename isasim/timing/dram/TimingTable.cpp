@@ -424,7 +424,7 @@ Expected<TimingTable> parseTimingTable(std::string_view Text,
 }
 
 Expected<TimingTable> readTimingTable(const std::string &Path) {
-  const auto Bytes = readFile(Path);
+  const auto Bytes = readRegularFile(Path);
   if (!Bytes)
     return Bytes.error();
   return parseTimingTable(
