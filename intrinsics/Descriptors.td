@@ -35,9 +35,9 @@ def VxLaunch : Descriptor<"vx_launch", [
     DescField<"global_offset", "u32", 3, "offset of the global ids">,
     DescField<"context", "u32", 1, "memory for values that live across barriers">,
     DescField<"context_stride", "u32", 1, "bytes of it for each core">,
-    DescField<"print_buffer", "u32", 1, "text of printf">,
-    DescField<"print_capacity", "u32", 1, "bytes">,
-    DescField<"print_used", "u32", 1, "bytes asked for so far; above the capacity means text was dropped">,
+    DescField<"print_buffer", "u32", 1, "vx_print, and the text of printf behind it">,
+    DescField<"print_capacity", "u32", 1, "bytes of the text">,
+    DescField<"stack_bytes", "u32", 1, "stack of each lane, a power of two; 0 for the machine's usual size">,
     DescField<"variables", "u32", 1, "variables of program scope, 0 for none">,
     DescField<"enqueued_size", "u32", 3, "of the whole range: work-items of all groups but the last">,
     DescField<"groups_before", "u32", 3, "groups of the whole range before the launch's first">,
@@ -46,6 +46,10 @@ def VxLaunch : Descriptor<"vx_launch", [
     DescField<"warps", "u32", 1, "warps of each core that run groups, each with a block of its own behind the one before">,
     DescField<"local_stride", "u32", 1, "bytes of local memory from a warp's to the next one's">
   ], "What a kernel launch hands to every warp (mscratch points to that of warp 0).">;
+
+def VxPrint : Descriptor<"vx_print", [
+    DescField<"used", "u32", 1, "bytes asked for so far; above the capacity means text was dropped">
+  ], "How the print buffer begins, the part of a launch's own data that kernels write.">;
 
 def VxKernel : Descriptor<"vx_kernel", [
     DescField<"name", "u32", 1, "address of the NUL-terminated name">,
@@ -56,8 +60,16 @@ def VxKernel : Descriptor<"vx_kernel", [
     DescField<"context_bytes", "u32", 1, "bytes a work-item keeps across barriers">,
     DescField<"local_bytes", "u32", 1, "static local memory, from 0xffff0000 on">,
     DescField<"local_size", "u32", 3, "the group size it was compiled for, 0 for any">,
-    DescField<"lanes", "u32", 1, "the lanes of a warp it was compiled for, 0 for any">
+    DescField<"lanes", "u32", 1, "the lanes of a warp it was compiled for, 0 for any">,
+    DescField<"stack_bytes", "u32", 1, "stack that its deepest path of calls needs; written by vorion-link, 0 if not known">
   ], "One kernel of a program, in section vorion_kernels.">;
+
+def VxStack : Descriptor<"vx_stack", [
+    DescField<"function", "u32", 1, "its address">,
+    DescField<"frame_bytes", "u32", 1, "stack that it takes itself">,
+    DescField<"flags", "u32", 1, "VX_STACK_*">,
+    DescField<"num_callees", "u32", 1, "functions that it calls, whose addresses follow">
+  ], "What a function takes of a lane's stack, in section vorion_stacks.">;
 
 def VxVariables : Descriptor<"vx_variables", [
     DescField<"entry", "u32", 1, "work-group function of the kernel">,
@@ -82,6 +94,10 @@ def : Constant<"VX_ARG_LOCAL", 2, "Pointer to local memory; the driver allocates
 def : Constant<"VX_ARG_INTEGER", 3, "A whole number, passed by value.">;
 def : Constant<"VX_ARG_FLOAT", 4, "A float of 32 bits, passed by value.">;
 
+def : Constant<"VX_STACK_INDIRECT", 1, "The function calls through pointers.">;
+def : Constant<"VX_STACK_REPEATS", 2, "What its frame has depends on the run.">;
+def : Constant<"VX_STACK_ADDRESS_TAKEN", 4, "Calls through pointers may reach it.">;
+
 def : Constant<"VX_IO_CONSOLE", 0x40, "Store: a byte for the console.">;
 def : Constant<"VX_IO_EXIT", 0x44, "Store: exit code.">;
 def : Constant<"VX_IO_RASTER", 0x1000, "Raster CSRs of core 0; VX_IO_RASTER_STRIDE bytes a core.">;
@@ -91,4 +107,7 @@ def : Constant<"VX_IMAGE_BASE", 0x80000000, "First byte of the program image.">;
 def : Constant<"VX_IMAGE_SIZE", 0x1000000, "Largest program image.">;
 def : Constant<"VX_HIGH_BASE", 0x81000000, "First byte behind the image: global memory that does not fit in front of it.">;
 def : Constant<"VX_STACK_TOP", 0xFFFF0000, "End of the stacks.">;
+def : Constant<"VX_REPEAT_BYTES", 0x8000, "Stack for what calls repeat: recursion, and calls through pointers.">;
+def : Constant<"VX_MAX_STACK", 0x1000000, "Largest stack of a lane.">;
+def : Constant<"VX_MAX_STACK_ROOM", 0xe20000, "What a program may use of it: start-up code leaves up to 15/128 unused.">;
 def : Constant<"VX_LOCAL_BASE", 0xFFFF0000, "First byte of local memory.">;

@@ -26,13 +26,16 @@ uint64_t Allocator::take(Ranges::iterator Range, uint64_t Want, End From) {
   return Address;
 }
 
-std::optional<uint64_t> Allocator::allocate(uint64_t Size, End From) {
+std::optional<uint64_t> Allocator::allocate(uint64_t Size, End From,
+                                            uint64_t Below) {
   // Checked before rounding up, which could wrap.
   if (Size > Free)
     return std::nullopt;
   const uint64_t Want =
       std::max(Alignment, (Size + Alignment - 1) / Alignment * Alignment);
-  const auto Holds = [Want](const auto &Range) { return Range.second >= Want; };
+  const auto Holds = [=](const auto &Range) {
+    return Range.first < Below && Range.second >= Want;
+  };
   if (From == End::Low) {
     const auto Found = std::ranges::find_if(FreeRanges, Holds);
     if (Found != FreeRanges.end())

@@ -25,9 +25,11 @@ public:
   /// It must not touch what is managed already.
   void add(uint64_t Base, uint64_t Size);
 
-  /// The block's address, or nothing if no free range holds \p Size bytes. A
-  /// size of 0 is one unit of alignment, so that addresses stay distinct.
-  std::optional<uint64_t> allocate(uint64_t Size, End From = End::Low);
+  /// The block's address, or nothing if no free range that begins below
+  /// \p Below holds \p Size bytes. A size of 0 is one unit of alignment, so
+  /// that addresses stay distinct.
+  std::optional<uint64_t> allocate(uint64_t Size, End From = End::Low,
+                                   uint64_t Below = UINT64_MAX);
 
   /// False if no block begins at \p Address (never allocated or freed twice).
   bool release(uint64_t Address);

@@ -36,6 +36,14 @@ TEST(Allocator, TheEndsDoNotMeet) {
   EXPECT_EQ(A.allocate(128, Allocator::End::High), 3968u);
   // Where only the other end's place has room, it is taken.
   EXPECT_EQ(A.allocate(2816, Allocator::End::High), 128u);
+}
+
+TEST(Allocator, LooksOnlyBelowALimit) {
+  Allocator A(0x1000, 0x1000);
+  A.add(0x8000, 0x1000);
+  EXPECT_EQ(A.allocate(128, Allocator::End::High), 0x8f80u);
+  EXPECT_EQ(A.allocate(128, Allocator::End::High, 0x8000), 0x1f80u);
+  EXPECT_EQ(A.allocate(0x1000, Allocator::End::High, 0x8000), std::nullopt);
   EXPECT_EQ(A.freeBytes(), 0u);
 }
 

@@ -350,6 +350,7 @@ vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
       info->local_size[I] = Found->LocalSize[I];
     info->lanes = Found->Lanes;
     info->variables_bytes = Found->Variables.Bytes;
+    info->stack_bytes = Found->StackBytes;
     return {};
   });
 }

@@ -146,8 +146,8 @@ TEST_F(Runtime, FillsTheLaunchBlock) {
   // 8 work-items of 100 bytes, rounded up to the alignment.
   EXPECT_EQ(Block.context_stride, 896u);
   EXPECT_GE(Block.context, Info.global_base);
-  EXPECT_EQ(Block.print_used, 0u);
-  EXPECT_GE(Block.print_capacity, 1u << 20);
+  EXPECT_EQ(Block.print_capacity, (1u << 20) - sizeof(vx_print));
+  EXPECT_EQ(Block.stack_bytes, 1u << 16);
 }
 
 TEST_F(Runtime, GivesBackWhatARunUsed) {
@@ -217,8 +217,9 @@ TEST_F(Runtime, ReturnsPrintedText) {
 
 TEST_F(Runtime, CountsTextThatDidNotFit) {
   const vx_result Result = run("print", {(1 << 20) + 5});
-  EXPECT_EQ(Result.print_bytes, std::size_t{1} << 20);
-  EXPECT_EQ(Result.print_dropped, 5u);
+  constexpr std::size_t Room = (1 << 20) - sizeof(vx_print);
+  EXPECT_EQ(Result.print_bytes, Room);
+  EXPECT_EQ(Result.print_dropped, (1 << 20) + 5 - Room);
 }
 
 TEST_F(Runtime, AFaultIsAResultAndTheDeviceGoesOn) {

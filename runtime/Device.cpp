@@ -77,9 +77,10 @@ vx_device_info Device::info() {
 }
 
 Failure Device::allocateLocked(uint64_t Size, const char *What,
-                               Allocator::End From, uint32_t &Address) {
+                               Allocator::End From, uint32_t &Address,
+                               uint64_t Below) {
   // What is asked for and cannot be had fails below.
-  const auto Found = Memory.allocate(Size + Watch->guardBytes(), From);
+  const auto Found = Memory.allocate(Size + Watch->guardBytes(), From, Below);
   if (!Found)
     return {VX_ERROR_MEMORY,
             fmt::format("no room for {} of {} bytes: {} of {} bytes of device "
@@ -104,11 +105,18 @@ Failure Device::allocateVariables(const LoadedImage &Image,
   Lock Held(Mutex);
   waitForRun(Held);
   uint32_t Start = 0;
-  // A driver does this when a launch begins: see prepare().
-  if (Failure Failed = allocateLocked(isasim::bytesFor(K.Variables),
-                                      "the variables of program scope",
-                                      Allocator::End::High, Start))
-    return Failed;
+  // A driver does this when a launch begins: see prepare(). In front of the
+  // image, if there is room, since large stacks need the end of the memory
+  // behind it.
+  for (const uint64_t Below : {uint64_t{VX_IMAGE_BASE}, UINT64_MAX}) {
+    Failure Failed = allocateLocked(isasim::bytesFor(K.Variables),
+                                    "the variables of program scope",
+                                    Allocator::End::High, Start, Below);
+    if (Failed && Below == UINT64_MAX)
+      return Failed;
+    if (!Failed)
+      break;
+  }
   isasim::writeVariables(*Machine, *Watch, Image.program(), K,
                          isasim::placeOf(K.Variables, Start));
   Address = Start;

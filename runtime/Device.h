@@ -10,6 +10,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace vorion::runtime {
@@ -74,7 +75,7 @@ private:
   void clockRuns(bool On);
   void keepConsole(std::string_view Text);
   Failure allocateLocked(uint64_t Size, const char *What, Allocator::End From,
-                         uint32_t &Address);
+                         uint32_t &Address, uint64_t Below = UINT64_MAX);
   /// Whether \p Address lies in the I/O window (docs/abi.md, "Memory map").
   static bool isRasterWindow(uint32_t Address);
   /// Calls Use(core, csr, offset) for each word of a range of the window, until
@@ -85,6 +86,7 @@ private:
   Failure tellHost(Notice What, uint32_t Address, uint64_t Size);
   void freeRunMemory();
   void nameBuffers(const isasim::Kernel &Kernel, const void *Args);
+  Failure holdStacks(const isasim::Launch &Planned);
   Failure prepare(const isasim::Launch &Planned, uint32_t Variables,
                   std::span<const std::byte> Args);
   void makeCurrent(LoadedImage &Image);
@@ -102,6 +104,8 @@ private:
   Allocator Memory;
   LoadedImage *Current = nullptr; ///< the image in the machine
   isasim::LaunchParts InUse;      ///< addresses of the run's parts
+  /// Where memory begins that the run's stacks cover, if they cover any.
+  std::optional<uint64_t> UnderStacks;
   bool Running = false;
   bool HasStarted = false;
   std::thread Runner; ///< joined before the next run and at the end

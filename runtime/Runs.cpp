@@ -123,8 +123,23 @@ void Device::makeCurrent(LoadedImage &Image) {
   Current = &Image;
 }
 
+Failure Device::holdStacks(const isasim::Launch &Planned) {
+  const uint64_t Bytes = Planned.bytesUnderStacks();
+  if (Bytes == 0)
+    return {};
+  UnderStacks = Memory.allocate(Bytes, Allocator::End::High);
+  if (UnderStacks == Planned.stacksBegin())
+    return {};
+  return {VX_ERROR_MEMORY,
+          fmt::format("no room for stacks that begin at {:#x}: expected the "
+                      "last {} bytes of device memory to be free",
+                      Planned.stacksBegin(), Bytes)};
+}
+
 Failure Device::prepare(const isasim::Launch &Planned, uint32_t Variables,
                         std::span<const std::byte> Args) {
+  if (Failure Failed = holdStacks(Planned))
+    return Failed;
   for (const auto &[Part, What] : LaunchPartNames) {
     uint32_t Address = 0;
     // Away from the program's buffers: these are allocated while launches
@@ -154,6 +169,9 @@ void Device::freeRunMemory() {
       Watch->released(Address);
     }
   InUse = {};
+  if (UnderStacks)
+    Memory.release(*UnderStacks);
+  UnderStacks.reset();
 }
 
 void Device::launch(Lock &Held, LoadedImage &Image, const std::string &Name,

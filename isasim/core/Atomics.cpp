@@ -60,12 +60,16 @@ unsigned highWord(unsigned Offset) {
 }
 
 bool faultAt(WarpState *S, unsigned L, uint32_t Address, uint32_t Bytes) {
-  return fault(
-      S, Address % Bytes ? TrapCause::MisalignedStore : TrapCause::StoreFault,
-      L, Address);
+  if (Address % Bytes)
+    return fault(S, TrapCause::MisalignedStore, L, Address);
+  return fault(S,
+               isStray(S, L, Address) ? TrapCause::StackOverflow
+                                      : TrapCause::StoreFault,
+               L, Address);
 }
 
-/// The atomic in lane order, at the places that Find gives for an address.
+/// The atomic in lane order, at the places that Find gives for a lane's
+/// address.
 template <Amo Kind, typename Function>
 bool amoLanes(WarpState *S, const Insn *I, Function Find) {
   uint32_t Olds[MaxLanes] = {};
@@ -73,7 +77,7 @@ bool amoLanes(WarpState *S, const Insn *I, Function Find) {
   const uint32_t *Operands = S->lanes(I->Rs2);
   const uint32_t *Compares = S->lanes(I->Rs3);
   const bool Ok = forLanes(S, [&](unsigned L) {
-    std::byte *At = Addresses[L] % 4 == 0 ? Find(Addresses[L]) : nullptr;
+    std::byte *At = Addresses[L] % 4 == 0 ? Find(L, Addresses[L]) : nullptr;
     if (!At)
       return faultAt(S, L, Addresses[L], 4);
     std::memcpy(&Olds[L], At, 4);
@@ -97,8 +101,8 @@ bool casPairs(WarpState *S, const Insn *I, Function Find) {
   const uint32_t *Compares[] = {S->lanes(I->Rs3), S->lanes(highWord(I->Rs3))};
   const bool Ok = forLanes(S, [&](unsigned L) {
     const uint32_t Address = Addresses[L];
-    std::byte *Low = Address % 8 == 0 ? Find(Address) : nullptr;
-    std::byte *High = Low ? Find(Address + 4) : nullptr;
+    std::byte *Low = Address % 8 == 0 ? Find(L, Address) : nullptr;
+    std::byte *High = Low ? Find(L, Address + 4) : nullptr;
     if (!High)
       return faultAt(S, L, Address, 8);
     std::memcpy(&Olds[0][L], Low, 4);
@@ -170,14 +174,16 @@ Amo amoKind(const Insn *I) {
 }
 
 bool amoNow(WarpState *S, const Insn *I, Amo Kind) {
-  return amoWhere(S, I, Kind,
-                  [S](uint32_t Addr) { return writableAt(*S->Mem, Addr, 4); });
+  return amoWhere(S, I, Kind, [S](unsigned L, uint32_t Addr) {
+    return isStray(S, L, Addr) ? nullptr : writableAt(*S->Mem, Addr, 4);
+  });
 }
 
 bool amoOrPark(WarpState *S, const Insn *I, Amo Kind) {
   if (allLanesIn(S, I, Kind, S->Mem->Local))
-    return amoWhere(S, I, Kind,
-                    [S](uint32_t Addr) { return S->Mem->Local.at(Addr); });
+    return amoWhere(S, I, Kind, [S](unsigned, uint32_t Addr) {
+      return S->Mem->Local.at(Addr);
+    });
   // Additions commute, so their order among the cores does not show; other
   // kinds would, mixed on one word.
   for (const Region *Global : {&S->Mem->Global, &S->Mem->High}) {

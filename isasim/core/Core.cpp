@@ -20,6 +20,9 @@ static constexpr uint64_t LongestStretch = 1 << 14;
 /// What is shorter says little of where the time goes.
 static constexpr uint64_t ShortestStretch = 1 << 6;
 
+/// A number that no stack has.
+static constexpr uint32_t NoStack = 1U << 30;
+
 Core::Core(const Config &C, unsigned IdIn)
     : Shape(C), Id(IdIn), Warps(C.WarpsPerCore),
       Stacks(size_t{C.WarpsPerCore} * C.DivergenceDepth), Arrived(C.Barriers) {}
@@ -50,6 +53,13 @@ void Core::reset(const CodeTable &CodeIn, uint32_t Entry,
     // which stacks are whose.
     if (LaunchWarps != 0 || Warps.size() == 1)
       S.FirstStack = (Id * std::max(LaunchWarps, 1U) + W) * Shape.LanesPerWarp;
+    // Of a launch of few groups whose stacks are large, the first cores alone
+    // have any.
+    const uint32_t Known = ViewIn.Stack.Bytes >> ViewIn.StackShift;
+    if (S.FirstStack != WarpState::NoOwnStack &&
+        S.FirstStack + Shape.LanesPerWarp > Known)
+      S.FirstStack = NoStack;
+    S.KeepsStacks = LaunchWarps != 0;
     S.Owner = this;
     S.Watcher = Watcher;
     S.Next = Code->begin();

@@ -82,7 +82,7 @@ uint32_t readCsr(WarpState *S, unsigned Number, unsigned Lane) {
   case CSR_NUM_CLUSTERS:
     return Shape.Clusters;
   case CSR_STACK_SIZE:
-    return Shape.StackBytes;
+    return 1U << S->Mem->StackShift;
   default:
     assert(false && "a CSR of the tables that nothing implements");
     return 0;

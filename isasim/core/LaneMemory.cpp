@@ -39,6 +39,8 @@ bool loadByLane(WarpState *S, const Insn *I, unsigned Bytes, bool Signed) {
     const uint32_t Addr = Base[L] + static_cast<uint32_t>(I->Imm);
     if (Addr % Bytes != 0)
       return fault(S, TrapCause::MisalignedLoad, L, Addr);
+    if (isStray(S, L, Addr))
+      return fault(S, TrapCause::StackOverflow, L, Addr);
     const std::byte *From = readableAt(*S->Mem, Addr, Bytes);
     if (!From)
       return fault(S, TrapCause::LoadFault, L, Addr);
@@ -61,6 +63,8 @@ bool storeByLane(WarpState *S, const Insn *I, unsigned Bytes) {
     const uint32_t Addr = Base[L] + static_cast<uint32_t>(I->Imm);
     if (Addr % Bytes != 0)
       return fault(S, TrapCause::MisalignedStore, L, Addr);
+    if (isStray(S, L, Addr))
+      return fault(S, TrapCause::StackOverflow, L, Addr);
     if (std::byte *To = writableAt(*S->Mem, Addr, Bytes)) {
       std::memcpy(To, &Values[L], Bytes);
       return true;

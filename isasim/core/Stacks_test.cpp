@@ -105,17 +105,138 @@ TEST(Memory, AccessBySpBeyondTheLanesOwnStackTraps) {
       }
 }
 
-TEST(Memory, OtherRegistersMayReachOtherStacks) {
+TEST(Memory, AccessToAnothersStackTraps) {
+  // By any register: all lanes one stack further, where they are neighbours
+  // again; some lanes; and one lane while others are in global memory.
+  for (const ExecTable *Table : allTables())
+    for (const Op O : {Op::RV_SW, Op::RV_LW, Op::RV_SB, Op::RV_LHU,
+                       Op::RV_AMOADD_W, Op::RV_AMOSWAP_W})
+      for (const bool BesideGlobal : {false, true})
+        for (const uint32_t Mask : {0xFFFFU, 0x0420U}) {
+          Config Shape = WarpRunner::smallShape();
+          Shape.CoresPerSocket = 2;
+          WarpRunner R(*Table, {encode(O, {.Rd = 12, .Rs1 = 10, .Rs2 = 11})},
+                       Shape);
+          const auto Run = [&](const Lanes16 &Addresses) {
+            R.reset();
+            runOn(R, Mask, Addresses, {});
+            if (R.warp().Why == Stop::Atomic && R.completeAtomic())
+              R.run();
+          };
+          Lanes16 Own = stackTops(Shape);
+          for (uint32_t L = 0; L != MaxLanes; ++L)
+            Own[L] = BesideGlobal && L != 10 ? Buffer + 64 * L : Own[L] - 16;
+          Run(Own);
+          EXPECT_TRUE(R.ranToEnd()) << Table->Level;
+          const auto ExpectStray = [&](const Lanes16 &Addresses,
+                                       uint32_t Lane) {
+            Run(Addresses);
+            EXPECT_EQ(R.cause(), TrapCause::StackOverflow) << Table->Level;
+            EXPECT_EQ(R.warp().FaultLane, Lane) << Table->Level;
+            EXPECT_EQ(R.warp().FaultAddress, Addresses[Lane]) << Table->Level;
+          };
+          for (const uint32_t Stacks : {1, 16}) {
+            Lanes16 One = Own, All = Own;
+            One[10] -= Stacks * Shape.StackBytes;
+            ExpectStray(One, 10);
+            if (BesideGlobal)
+              continue;
+            for (uint32_t &Address : All)
+              Address -= Stacks * Shape.StackBytes;
+            ExpectStray(All, Mask == 0xFFFF ? 0 : 5);
+          }
+        }
+}
+
+TEST(Memory, InALaunchSpStaysOutOfTheMemoryBelowTheStacks) {
+  for (const ExecTable *Table : allTables())
+    for (const Op O : {Op::RV_SW, Op::RV_LW, Op::RV_SB}) {
+      WarpRunner R(*Table, {encode(O, {.Rd = 12, .Rs1 = 2, .Rs2 = 11})},
+                   shapeWithHighMemory());
+      const Lanes16 InGlobal = all(VX_HIGH_BASE + 0x1000);
+      R.setX(2, InGlobal);
+      R.run();
+      EXPECT_TRUE(R.ranToEnd()) << Table->Level;
+      R.Only.reset(R.Code, VX_IMAGE_BASE, 0, 1, R.Storage->view(0), &R.Watcher);
+      R.setActive(0xFFFF);
+      R.setX(2, InGlobal);
+      R.run();
+      EXPECT_EQ(R.cause(), TrapCause::StackOverflow) << Table->Level;
+    }
+}
+
+TEST(Memory, StacksOfARunMayBeLarger) {
   for (const ExecTable *Table : allTables()) {
-    WarpRunner R(*Table, {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11})});
-    Lanes16 Addresses;
-    for (uint32_t L = 0; L != MaxLanes; ++L)
-      Addresses[L] = VX_STACK_TOP - 16 - (15 - L) * R.Shape.StackBytes;
-    runOn(R, 0xFFFF, Addresses, Addresses);
+    Config Shape = shapeWithHighMemory();
+    WarpRunner R(*Table,
+                 {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11}),
+                  encode(Op::RV_LW, {.Rd = 12, .Rs1 = 10}),
+                  encode(Op::RV_CSRRS, {.Rd = 13, .Csr = CSR_STACK_SIZE})},
+                 Shape);
+    const uint32_t Large = 4 * Shape.StackBytes;
+    const auto Run = [&](uint32_t Depth) {
+      R.reset();
+      Lanes16 Addresses, Values;
+      for (uint32_t L = 0; L != MaxLanes; ++L) {
+        Addresses[L] = VX_STACK_TOP - L * Large - Depth;
+        Values[L] = Addresses[L] ^ 0x5a5a;
+      }
+      runOn(R, 0xFFFF, Addresses, Values);
+      return R.getX(12) == Values;
+    };
+    ASSERT_TRUE(R.Storage->beginRun({Large, MaxLanes * Large, {}}));
+    EXPECT_TRUE(Run(16)) << Table->Level;
     EXPECT_TRUE(R.ranToEnd()) << Table->Level;
-    for (const uint32_t Address : Addresses)
-      EXPECT_EQ(onStack(R, Address, 4), Address) << Table->Level;
+    EXPECT_EQ(R.getX(13), all(Large));
+    EXPECT_TRUE(Run(Large)) << Table->Level;
+    EXPECT_FALSE(Run(Large + 4)) << Table->Level;
+    EXPECT_EQ(R.cause(), TrapCause::StackOverflow);
+    // What they cover of global memory is not there until the run ends.
+    const uint32_t Covered = VX_STACK_TOP - 16 * Large;
+    EXPECT_EQ(R.Storage->global(Covered, 4), nullptr);
+    EXPECT_NE(R.Storage->stackByte(Covered), nullptr);
+    R.Storage->endRun();
+    EXPECT_EQ(R.Storage->stackByte(Covered), nullptr);
   }
+}
+
+TEST(Memory, ARunCanHaveMemoryToReadOnly) {
+  // In the middle, at an end, and one behind the other; at the border some
+  // lanes would store.
+  const uint32_t Ends = VX_GLOBAL_BASE + (1 << 20);
+  const std::vector<AddressRange> Kept[] = {
+      {{Buffer, 128}},
+      {{Ends - 256, 256}, {VX_GLOBAL_BASE, 128}},
+      {{Buffer + 128, 256}, {Buffer, 128}}};
+  for (const ExecTable *Table : allTables())
+    for (const std::vector<AddressRange> &ReadOnly : Kept)
+      for (const Op O : {Op::RV_SW, Op::RV_SB, Op::RV_LW, Op::RV_AMOADD_W,
+                         Op::RV_AMOSWAP_W}) {
+        WarpRunner R(*Table, {encode(O, {.Rd = 12, .Rs1 = 10, .Rs2 = 11})});
+        ASSERT_TRUE(R.Storage->beginRun(
+            {R.Shape.StackBytes, stackBytes(R.Shape), ReadOnly}));
+        const auto Runs = [&](uint32_t First, uint32_t Step) {
+          R.reset();
+          Lanes16 Addresses;
+          for (uint32_t L = 0; L != MaxLanes; ++L)
+            Addresses[L] = First + L * Step;
+          runOn(R, 0xFFFF, Addresses, {});
+          if (R.warp().Why == Stop::Atomic && R.completeAtomic())
+            R.run();
+          return R.ranToEnd();
+        };
+        for (const AddressRange &Part : ReadOnly)
+          for (const uint32_t Step : {0, 4}) {
+            EXPECT_EQ(Runs(Part.Base, Step), O == Op::RV_LW) << Table->Level;
+            if (Part.Base == Buffer)
+              EXPECT_EQ(Runs(Part.Base - 32, Step), O == Op::RV_LW || !Step)
+                  << Table->Level;
+            EXPECT_TRUE(Runs(Buffer - 64, Step)) << Table->Level;
+            EXPECT_TRUE(Runs(Buffer + 512, Step)) << Table->Level;
+          }
+        EXPECT_EQ(R.Storage->writable(ReadOnly[0].Base + 124, 4), nullptr);
+        EXPECT_NE(R.Storage->writable(Buffer + 512, 4), nullptr);
+      }
 }
 
 TEST(Memory, StackAddressesCoverTheirRangeOnce) {
@@ -141,9 +262,10 @@ TEST(Memory, StackFaultsBelowTheLowest) {
   for (const ExecTable *Table : allTables()) {
     WarpRunner R(*Table, {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11})});
     const uint32_t Lowest = VX_STACK_TOP - MaxLanes * R.Shape.StackBytes;
-    Lanes16 Addresses;
-    for (uint32_t L = 0; L != MaxLanes; ++L)
-      Addresses[L] = Lowest + (15 - L) * R.Shape.StackBytes - 4;
+    Lanes16 Addresses = stackTops(R.Shape);
+    for (uint32_t &Address : Addresses)
+      Address -= 16;
+    Addresses[15] = Lowest - 4;
     runOn(R, 0xFFFF, Addresses, {});
     EXPECT_EQ(R.cause(), TrapCause::StoreFault);
     EXPECT_EQ(R.warp().FaultLane, 15U);

@@ -22,6 +22,9 @@ inline constexpr unsigned FBase = 32;
 inline constexpr unsigned SinkRegister = 64; ///< takes what is written to x0
 inline constexpr unsigned NumRegisters = 65;
 
+/// Insn::Rs1 of an access by sp.
+inline constexpr uint16_t StackPointer = 2 * sizeof(LaneWords);
+
 struct WarpState;
 struct Insn;
 
@@ -75,14 +78,25 @@ inline constexpr unsigned StackGroup = 16;
 
 /// What a core can reach.
 struct MemoryView {
+  /// Global memory in front of the image and, in High, behind it, as far as a
+  /// program can write it in one piece; High is Global again if there is none.
   Region Global, Local, Stack, Image;
-  /// Global memory behind the image; Global again if there is none.
   Region High;
+  /// The pieces behind what it can only read; Global again if there are none.
+  Region Rest[2];
+  /// Both parts of global memory with what can only be read.
+  Region Whole[2];
   /// Logarithm of the bytes of one stack.
   unsigned StackShift = 0;
   /// Writable parts of the image, by address.
   const Region *ImageWritable = nullptr;
   unsigned NumImageWritable = 0;
+
+  /// The number of the stack with \p Addr, from the top. Works on numbers and
+  /// on vectors of them.
+  template <typename T> T stackOf(T Addr) const {
+    return ((Stack.Lo + (Stack.Bytes - 1)) - Addr) >> StackShift;
+  }
 
   /// Where the byte at guest address \p Addr of a stack lies after Stack.Host.
   /// The same word of 16 neighbouring harts' stacks is one cache line: lanes
@@ -156,6 +170,8 @@ struct alignas(64) WarpState {
   /// the program's affair.
   static constexpr uint32_t NoOwnStack = ~0U;
   uint32_t FirstStack = NoOwnStack;
+  /// Whether sp may point to a lane's own stack alone, as in launches.
+  bool KeepsStacks = false;
   bool AtBarrier = false;
   uint32_t BarrierId = 0;
   uint32_t BarrierCount = 0;

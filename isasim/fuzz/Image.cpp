@@ -44,7 +44,7 @@ std::vector<std::vector<std::byte>> imageSeeds() {
   WithKernel.Segments[1] = {Table,
                             PF_R,
                             {Names, VX_IMAGE_BASE, Args, 1, 4, 0, 0, 0, 0, 0, 0,
-                             Names, VX_ARG_GLOBAL, 0, 4, 0x006B6B6B},
+                             0, Names, VX_ARG_GLOBAL, 0, 4, 0x006B6B6B},
                             0};
   WithKernel.Symbols = {
       {"__start_vorion_kernels", Table},

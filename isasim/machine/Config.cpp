@@ -84,7 +84,7 @@ std::vector<Key> makeKeys() {
       VORION_KEY("divergence_depth", 1, 1024, 1, DivergenceDepth),
       VORION_KEY("global_bytes", 0, MaxGlobal, Page, GlobalBytes),
       VORION_KEY("local_bytes", Page, 64 << 10, Page, LocalBytes),
-      VORION_KEY("stack_bytes", Page, 1 << 24, Page, StackBytes),
+      VORION_KEY("stack_bytes", Page, VX_MAX_STACK, Page, StackBytes),
       VORION_KEY("quantum", 1, 1 << 30, 1, Quantum),
       VORION_KEY("max_instructions", 0, UINT64_MAX, 1, MaxInstructions),
       VORION_KEY("host_threads", 0, 1024, 1, HostThreads),

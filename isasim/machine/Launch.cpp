@@ -2,6 +2,7 @@
 
 #include "core/IsaTables.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/isasim/MemoryMap.h"
 #include "vorion/isasim/Session.h"
 
 #include <algorithm>
@@ -24,6 +25,15 @@ Error noLocalMemory(const std::string &Name, uint64_t Capacity) {
   return noMemory(fmt::format("kernel {} needs more than the {} bytes of local "
                               "memory",
                               Name, Capacity));
+}
+
+Error noStacks(const Kernel &K, uint64_t Stacks) {
+  std::string All =
+      Stacks ? fmt::format(", {} with those of all lanes that run it", Stacks)
+             : "";
+  return noMemory(fmt::format("kernel {} needs a stack of {} bytes for each "
+                              "work-item{}, expected room for them",
+                              K.Name, K.StackBytes, All));
 }
 
 /// Above \p Limit if it is more: no product of three 32-bit numbers may wrap.
@@ -110,6 +120,22 @@ Expected<Launch> Launch::plan(const Kernel &K, const LaunchShape &S,
   L.LocalStride =
       static_cast<uint32_t>(alignLaunch(S.LocalBytes.value_or(K.LocalBytes)));
   L.Warps = warpsFor(K, S, L.LocalStride, C);
+  L.StackBytes = stackFor(K.StackBytes, C);
+  if (L.StackBytes == 0)
+    return noStacks(K, 0);
+  const auto AllStacks = [&] {
+    return stackBytes(C, L.StackBytes, L.Warps, S.NumGroups);
+  };
+  constexpr uint64_t MostStacks = VX_STACK_TOP - VX_HIGH_BASE;
+  while (L.Warps > 1 && AllStacks() > MostStacks)
+    --L.Warps;
+  const uint64_t Stacks = AllStacks();
+  if (Stacks > MostStacks)
+    return noStacks(K, Stacks);
+  L.StacksBegin = VX_STACK_TOP - Stacks;
+  const AddressRange High = globalRanges(C)[1];
+  const uint64_t HighEnd = High.Base + High.Bytes;
+  L.BytesUnderStacks = HighEnd - std::min(HighEnd, L.StacksBegin);
   L.Bytes = {.Block = sizeof(VxLaunch) * L.Warps,
              .Args = K.ArgsBytes,
              .Context = Stride * C.cores() * L.Warps,
@@ -129,7 +155,8 @@ void Launch::write(Machine &M, Session &Watch, const LaunchParts &Addresses,
   std::ranges::copy(Shape.GlobalOffset, Block.GlobalOffset);
   Block.ContextStride = ContextStride;
   Block.PrintBuffer = address(Addresses.Print);
-  Block.PrintCapacity = PrintBytes;
+  Block.PrintCapacity = PrintBytes - sizeof(VxPrint);
+  Block.StackBytes = StackBytes;
   Block.Variables = address(Addresses.Variables);
   const WholeRange Range = rangeOf(Shape);
   std::ranges::copy(Range.EnqueuedSize, Block.EnqueuedSize);
@@ -144,6 +171,9 @@ void Launch::write(Machine &M, Session &Watch, const LaunchParts &Addresses,
     M.write(address(Addresses.Block + W * sizeof(Block)), bytesOf(Block));
   }
   Watch.hostWrote(address(Addresses.Block), Bytes.Block);
+  VxPrint Print{};
+  M.write(Block.PrintBuffer, bytesOf(Print));
+  Watch.hostWrote(Block.PrintBuffer, sizeof(Print));
   if (Args.empty())
     return;
   M.write(address(Addresses.Args), Args);
@@ -179,13 +209,13 @@ void writeVariables(Machine &M, Session &Watch, const Image &Program,
 }
 
 Printed printedBy(Machine &M, const LaunchParts &Addresses) {
-  VxLaunch Block{};
-  M.read(address(Addresses.Block), bytesOf(Block));
-  // The program may have written anything there: only how much it printed is
-  // taken from it.
-  const uint32_t Kept = std::min(Block.PrintUsed, PrintBytes);
-  Printed P{.Text = std::string(Kept, '\0'), .Dropped = Block.PrintUsed - Kept};
-  M.read(address(Addresses.Print), std::as_writable_bytes(std::span(P.Text)));
+  VxPrint Print{};
+  M.read(address(Addresses.Print), bytesOf(Print));
+  const auto Kept =
+      std::min<uint32_t>(Print.Used, PrintBytes - sizeof(VxPrint));
+  Printed P{.Text = std::string(Kept, '\0'), .Dropped = Print.Used - Kept};
+  M.read(address(Addresses.Print + sizeof(VxPrint)),
+         std::as_writable_bytes(std::span(P.Text)));
   return P;
 }
 

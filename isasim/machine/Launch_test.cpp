@@ -66,6 +66,42 @@ TEST(Launch, WhatCannotRunIsRefused) {
   EXPECT_EQ(CodeOf(Large, {}), ExitCode::LimitReached);
 }
 
+TEST(Launch, StacksAreAsLargeAsTheKernelNeeds) {
+  const Config Small = smallMachine();
+  Config All = Small; // of global memory
+  All.GlobalBytes = 0;
+  Kernel K = someKernel();
+  const auto PlanOf = [&](uint64_t Needs, uint32_t Groups, const Config &C) {
+    K.StackBytes = static_cast<uint32_t>(Needs);
+    return Launch::plan(
+        K, {.NumGroups = {Groups, 1, 1}, .LocalSize = {16, 1, 1}}, C);
+  };
+  // Sizes in KiB: needed, of one stack, of all that groups need.
+  constexpr uint64_t Kib = 1024;
+  const auto StacksOf = [&](uint64_t Needs, uint32_t Groups) {
+    const auto L = PlanOf(Needs, Groups, Small);
+    EXPECT_TRUE(L);
+    EXPECT_EQ(L->bytesUnderStacks(), 0u);
+    return (VX_STACK_TOP - L->stacksBegin()) / Kib;
+  };
+  EXPECT_EQ(StacksOf(0, 1), 8 * Kib);
+  EXPECT_EQ(StacksOf(57856, 1), 8 * Kib);
+  EXPECT_EQ(StacksOf(57857, 1), 2 * Kib);
+  EXPECT_EQ(StacksOf(57857, 3), 6 * Kib);
+  EXPECT_EQ(StacksOf(57857, 1000), 16 * Kib);
+  EXPECT_EQ(StacksOf(2 << 20, 8), 512 * Kib);
+  // What lies under them.
+  EXPECT_EQ(PlanOf(0, 8, All)->bytesUnderStacks(), 0u);
+  EXPECT_EQ(PlanOf(100 * Kib, 8, All)->bytesUnderStacks(), 8 * Kib * Kib);
+  EXPECT_EQ(PlanOf(100 * Kib, 4, All)->bytesUnderStacks(), 0u);
+  EXPECT_TRUE(PlanOf(VX_MAX_STACK_ROOM, 7, Small));
+  for (const auto &L : {PlanOf(VX_MAX_STACK_ROOM, 8, Small),
+                        PlanOf(VX_MAX_STACK_ROOM + 1, 1, Small)}) {
+    ASSERT_FALSE(L);
+    EXPECT_EQ(L.error().Code, ExitCode::LimitReached);
+  }
+}
+
 TEST(Launch, TheBlockIsWrittenAndItsPrintingRead) {
   const auto M = Machine::create(smallMachine());
   const auto Watch = Session::create({}, "test");
@@ -91,12 +127,14 @@ TEST(Launch, TheBlockIsWrittenAndItsPrintingRead) {
             0);
 
   // What the program says that it printed is more than there is room for.
-  Block.PrintUsed = PrintBytes + 5;
-  std::memcpy((*M)->hostPointer(VX_GLOBAL_BASE, sizeof(Block)), &Block,
-              sizeof(Block));
-  std::memcpy((*M)->hostPointer(VX_GLOBAL_BASE + 65536, 5), "hello", 5);
+  constexpr uint32_t TextBytes = PrintBytes - sizeof(VxPrint);
+  EXPECT_EQ(Block.PrintCapacity, TextBytes);
+  const uint32_t Used = TextBytes + 5;
+  std::memcpy((*M)->hostPointer(VX_GLOBAL_BASE + 65536, 4), &Used, 4);
+  std::memcpy((*M)->hostPointer(VX_GLOBAL_BASE + 65536 + sizeof(VxPrint), 5),
+              "hello", 5);
   const Printed P = printedBy(**M, At);
-  EXPECT_EQ(P.Text.size(), PrintBytes);
+  EXPECT_EQ(P.Text.size(), TextBytes);
   EXPECT_EQ(P.Text.substr(0, 5), "hello");
   EXPECT_EQ(P.Dropped, 5u);
 }

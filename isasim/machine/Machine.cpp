@@ -96,10 +96,18 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   const bool HasLaunch = LaunchBlock != 0;
   if (HasLaunch)
     read(LaunchBlock, std::as_writable_bytes(std::span(&Launch, 1)));
+  const RunMemory Memory = PImpl->memoryFor(LaunchBlock, Launch);
+  if (const Expected<Success> Ok = PImpl->Storage->beginRun(Memory); !Ok) {
+    PImpl->Running = false;
+    R.End = Outcome::LimitReached;
+    R.Report = Ok.error().What + "\n";
+    return R;
+  }
   PImpl->resetCores(LaunchBlock, Launch);
   PImpl->Watcher.tell([&](Observer &O) {
     O.runBegins({PImpl->Shape, PImpl->Program, LaunchBlock,
-                 HasLaunch ? &Launch : nullptr, PImpl->Cores, this});
+                 HasLaunch ? &Launch : nullptr, PImpl->Cores, this,
+                 Memory.StackBytes, Memory.Stacks});
   });
   do {
     PImpl->runCores();
@@ -123,6 +131,7 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   R.HostCpuSeconds =
       static_cast<double>(std::clock() - CpuBegin) / CLOCKS_PER_SEC;
   PImpl->Watcher.tell([&](Observer &O) { O.runEnds(R); });
+  PImpl->Storage->endRun();
   return R;
 }
 

@@ -61,6 +61,8 @@ struct Machine::Impl final : raster::WorkLog {
   /// all mapped.
   template <typename Function>
   bool access(uint32_t Address, uint64_t Bytes, Function Use) const;
+  /// What the run of a launch, or without one of main, has of memory.
+  RunMemory memoryFor(uint32_t LaunchBlock, const VxLaunch &Launch) const;
   void resetCores(uint32_t LaunchBlock, const VxLaunch &Launch);
   void runCores();
   void translate();

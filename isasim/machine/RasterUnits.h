@@ -71,7 +71,7 @@ private:
     GlobalMemory(Memory &StorageIn, std::function<bool()> IsOverIn)
         : Storage(StorageIn), Over(std::move(IsOverIn)) {}
     std::byte *range(uint32_t Addr, uint64_t Bytes) override {
-      return Storage.global(Addr, Bytes);
+      return Storage.writable(Addr, Bytes);
     }
     bool isOver() override { return Over(); }
     Memory &Storage;

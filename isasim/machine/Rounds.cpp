@@ -4,11 +4,13 @@
 #include "core/Csr.h"
 #include "machine/MachineImpl.h"
 #include "machine/Report.h"
+#include "vorion/isasim/Launch.h"
 #include "vorion/isasim/Observer.h"
 #include "vorion/isasim/TrapCause.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <fmt/format.h>
 
 namespace vorion::isasim {
@@ -50,6 +52,31 @@ Event rasterEvent(const WarpState &S) {
 }
 
 } // namespace
+
+RunMemory Machine::Impl::memoryFor(uint32_t LaunchBlock,
+                                   const VxLaunch &Launch) const {
+  RunMemory R{Shape.StackBytes, stackBytes(Shape), {}};
+  // Whoever wrote the block has seen to it that the stacks fit (Launch::plan).
+  constexpr uint64_t MostStacks = VX_STACK_TOP - VX_HIGH_BASE;
+  const auto SetStacks = [&](uint32_t Each, uint64_t All) {
+    if (std::has_single_bit(Each) && Each > Shape.StackBytes &&
+        Each <= VX_MAX_STACK && All <= MostStacks)
+      R.StackBytes = Each, R.Stacks = All;
+  };
+  if (LaunchBlock == 0) {
+    const uint32_t Each = stackFor(Program->mainStackBytes(), Shape);
+    SetStacks(Each, stackBytes(Shape) / Shape.StackBytes * Each);
+    return R;
+  }
+  SetStacks(Launch.StackBytes, stackBytes(Shape, Launch.StackBytes,
+                                          Launch.Warps, Launch.NumGroups));
+  R.ReadOnly.push_back(
+      {LaunchBlock, uint64_t{sizeof(VxLaunch)} * std::max(Launch.Warps, 1U)});
+  for (const Kernel &K : Program->kernels())
+    if (K.Entry == Launch.Entry && K.ArgsBytes != 0)
+      R.ReadOnly.push_back({Launch.Args, alignLaunch(K.ArgsBytes)});
+  return R;
+}
 
 void Machine::Impl::resetCores(uint32_t LaunchBlock, const VxLaunch &Launch) {
   const uint32_t Entry =

@@ -124,6 +124,8 @@ std::string ImageParser::readSegments() {
         get<Elf32_Phdr>(uint64_t{Header.e_phoff} + N * sizeof(Elf32_Phdr));
     if (!P)
       return "truncated: the program headers lie beyond the end of the file";
+    if (P->p_type == PT_GNU_STACK)
+      Result->MainStackBytes = P->p_memsz;
     if (P->p_type != PT_LOAD || P->p_memsz == 0)
       continue;
     const auto Bytes = part(P->p_offset, P->p_filesz);
@@ -380,6 +382,7 @@ std::string ImageParser::readKernel(uint32_t Address) {
   std::copy(std::begin(Record->LocalSize), std::end(Record->LocalSize),
             K.LocalSize.begin());
   K.Lanes = Record->Lanes;
+  K.StackBytes = Record->StackBytes;
   for (uint32_t N = 0; N != Record->NumArgs; ++N) {
     const auto Arg = load<VxKernelArg>(
         Record->Args + N * static_cast<uint32_t>(sizeof(VxKernelArg)));

@@ -38,7 +38,8 @@ ElfOptions withKernel() {
                          16,
                          1,
                          1,
-                         8, // vx_kernel
+                         8,
+                         4096, // vx_kernel
                          Names + 4,
                          VX_ARG_GLOBAL,
                          0,
@@ -93,6 +94,7 @@ TEST(Image, ReadsTheKernelTable) {
   EXPECT_EQ(K->LocalBytes, 256U);
   EXPECT_EQ(K->LocalSize[0], 16U);
   EXPECT_EQ(K->Lanes, 8U);
+  EXPECT_EQ(K->StackBytes, 4096U);
   EXPECT_EQ(K->contextBytesOf(8), 8U * 12);
   EXPECT_EQ(K->contextBytesOf(9), 16U * 12);
   ASSERT_EQ(K->Args.size(), 2U);
@@ -200,12 +202,12 @@ TEST(Image, RefusesBadKernelTables) {
   EXPECT_NE(wrongIn(O).find("argument 0 of 'add' is not in the image"),
             std::string::npos);
   O = withKernel();
-  O.Segments[1].Words[13] = 6; // an argument beyond the end of them
+  O.Segments[1].Words[14] = 6; // an argument beyond the end of them
   EXPECT_NE(wrongIn(O).find("argument 0 of 'add' is malformed"),
             std::string::npos);
   O = withKernel();
   O.Symbols[2].second -= 4;
-  EXPECT_EQ(wrongIn(O), "kernel table of 40 bytes, expected a multiple of 44");
+  EXPECT_EQ(wrongIn(O), "kernel table of 44 bytes, expected a multiple of 48");
 }
 
 /// With variables of program scope: 12 bytes, of which the first two words are
@@ -285,7 +287,7 @@ TEST(Image, ManyKernelsOfOneTableAreRefused) {
   std::vector<uint32_t> Words;
   for (uint32_t N = 0; N != Kernels; ++N)
     Words.insert(Words.end(),
-                 {Name, VX_IMAGE_BASE, ArgTable, Args, 4, 0, 0, 0, 0, 0, 0});
+                 {Name, VX_IMAGE_BASE, ArgTable, Args, 4, 0, 0, 0, 0, 0, 0, 0});
   for (uint32_t N = 0; N != Args; ++N)
     Words.insert(Words.end(), {Name, VX_ARG_VALUE, 0, 4});
   Words.push_back('k');
@@ -304,7 +306,7 @@ TEST(Image, NamesThatShareOneStringAreRefused) {
   constexpr uint32_t Names = ArgTable + Args * uint32_t{sizeof(VxKernelArg)};
   ElfOptions O = good();
   std::vector<uint32_t> Words = {
-      Names, VX_IMAGE_BASE, ArgTable, Args, 4, 0, 0, 0, 0, 0, 0};
+      Names, VX_IMAGE_BASE, ArgTable, Args, 4, 0, 0, 0, 0, 0, 0, 0};
   for (uint32_t N = 0; N != Args; ++N)
     Words.insert(Words.end(), {Names, VX_ARG_VALUE, 0, 4});
   Words.insert(Words.end(), NameBytes / 4, 0x61616161);

@@ -1,7 +1,7 @@
 #include "mem/Memory.h"
 
 #include "core/IsaTables.h"
-#include "vorion/isasim/MemoryMap.h"
+#include "vorion/isasim/Launch.h"
 
 #include <algorithm>
 #include <bit>
@@ -26,6 +26,36 @@ std::byte *rangeAt(const Region &R, uint32_t Address, uint64_t Bytes) {
   return Address >= R.Lo && Offset <= R.Bytes && Bytes <= R.Bytes - Offset
              ? R.Host + Offset
              : nullptr;
+}
+
+/// On the host stacks come in whole groups of StackGroup.
+uint64_t onHost(uint64_t Stacks, uint32_t StackBytes) {
+  const uint64_t Group = StackGroup * uint64_t{StackBytes};
+  return (Stacks + Group - 1) / Group * Group;
+}
+
+unsigned shiftOf(uint32_t StackBytes) {
+  return static_cast<unsigned>(std::countr_zero(StackBytes));
+}
+
+/// Appends what of \p Part lies outside of \p ReadOnly.
+void addWritable(const Region &Part, std::span<const AddressRange> ReadOnly,
+                 std::vector<Region> &Pieces) {
+  uint64_t From = Part.Lo;
+  const uint64_t End = From + Part.Bytes;
+  const auto Add = [&](uint64_t To) {
+    if (To > From)
+      Pieces.push_back({static_cast<uint32_t>(From),
+                        static_cast<uint32_t>(To - From),
+                        Part.at(static_cast<uint32_t>(From))});
+  };
+  for (const AddressRange &R : ReadOnly) {
+    if (R.Base < From || R.Base >= End)
+      continue;
+    Add(R.Base);
+    From = std::min(R.Base + R.Bytes, End);
+  }
+  Add(End);
 }
 
 } // namespace
@@ -76,9 +106,7 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   if (High.Bytes)
     Wanted.push_back(High);
 
-  // Stacks come in whole groups on the host.
-  const uint64_t Group = StackGroup * uint64_t{C.StackBytes};
-  const uint64_t StackBytesOnHost = (StackBytes + Group - 1) / Group * Group;
+  const uint64_t StackBytesOnHost = onHost(StackBytes, C.StackBytes);
   std::vector<Mapping> Maps;
   std::vector<Region> Regions;
   for (const auto &[Lo, Bytes] : Wanted) {
@@ -96,19 +124,64 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   }
   std::unique_ptr<Memory> Result(new Memory(std::move(Maps)));
   Result->Global = Regions[0];
-  Result->Stack = Regions[1];
+  Result->OwnStack = Regions[1];
   Result->StackBytesOnHost = StackBytesOnHost;
   Result->ImageRange = Regions[2];
-  Result->StackShift = static_cast<unsigned>(std::countr_zero(C.StackBytes));
+  Result->OwnStackShift = shiftOf(C.StackBytes);
   Result->Locals.assign(Regions.begin() + 3, Regions.begin() + 3 + C.cores());
   Result->High = High.Bytes ? Regions.back() : Result->Global;
+  Result->endRun();
   return Result;
+}
+
+Expected<Success> Memory::beginRun(RunMemory Run) {
+  endRun();
+  if (shiftOf(Run.StackBytes) != OwnStackShift) {
+    Expected<Mapping> Large = Mapping::make(onHost(Run.Stacks, Run.StackBytes));
+    if (!Large)
+      return Large.error();
+    LargeStacks.emplace(std::move(*Large));
+    const auto Bytes = static_cast<uint32_t>(Run.Stacks);
+    Stack = {VX_STACK_TOP - Bytes, Bytes, LargeStacks->data()};
+    StackShift = shiftOf(Run.StackBytes);
+  }
+  constexpr size_t MaxReadOnly = std::size(MemoryView().Rest);
+  for (const AddressRange &R : Run.ReadOnly)
+    if (R.Bytes && R.Base % LaunchAlignment == 0 &&
+        R.Bytes % LaunchAlignment == 0 && global(R.Base, R.Bytes) &&
+        ReadOnly.size() != MaxReadOnly)
+      ReadOnly.push_back(R);
+  std::ranges::sort(ReadOnly, {}, &AddressRange::Base);
+  return Success{};
+}
+
+void Memory::endRun() {
+  Stack = OwnStack;
+  StackShift = OwnStackShift;
+  LargeStacks.reset();
+  ReadOnly.clear();
 }
 
 MemoryView Memory::view(unsigned Core) const {
   MemoryView V;
-  V.Global = Global;
-  V.High = High;
+  // Stacks that are larger than the machine's cover some of it.
+  Region Behind = High;
+  if (High.Host != Global.Host)
+    Behind.Bytes = std::min(High.Bytes, Stack.Lo - std::min(Stack.Lo, High.Lo));
+  std::vector<Region> Pieces;
+  addWritable(Global, ReadOnly, Pieces);
+  const size_t Front = Pieces.size();
+  if (High.Host != Global.Host)
+    addWritable(Behind, ReadOnly, Pieces);
+  V.Global = Pieces.empty() ? Global : Pieces.front();
+  V.High = Front < Pieces.size() ? Pieces[Front] : V.Global;
+  std::ranges::fill(V.Rest, V.Global);
+  Region *Rest = V.Rest;
+  for (size_t N = 1; N < Pieces.size(); ++N)
+    if (N != Front)
+      *Rest++ = Pieces[N];
+  V.Whole[0] = Global;
+  V.Whole[1] = Behind.Bytes ? Behind : Global;
   V.Local = Locals[Core];
   V.Stack = Stack;
   V.Image = ImageRange;
@@ -146,15 +219,24 @@ void Memory::clearLocal() {
 
 std::vector<std::span<std::byte>> Memory::kept() const {
   std::vector<std::span<std::byte>> All = {{Global.Host, Global.Bytes},
-                                           {Stack.Host, StackBytesOnHost}};
+                                           {OwnStack.Host, StackBytesOnHost}};
   if (High.Host != Global.Host)
     All.emplace_back(High.Host, High.Bytes);
   return All;
 }
 
 std::byte *Memory::global(uint32_t Address, uint64_t Bytes) const {
+  if (uint64_t{Address} + Bytes > Stack.Lo)
+    return nullptr;
   std::byte *const At = rangeAt(Global, Address, Bytes);
   return At ? At : rangeAt(High, Address, Bytes);
+}
+
+std::byte *Memory::writable(uint32_t Address, uint64_t Bytes) const {
+  for (const AddressRange &R : ReadOnly)
+    if (Address < R.Base + R.Bytes && Address + Bytes > R.Base)
+      return nullptr;
+  return global(Address, Bytes);
 }
 
 std::byte *Memory::shared(uint32_t Address, uint64_t Bytes) const {

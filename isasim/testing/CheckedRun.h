@@ -21,7 +21,9 @@ inline std::vector<std::string> reportsOf(std::string_view Names,
                  .LaunchBlock = 0,
                  .Launch = nullptr,
                  .Cores = {},
-                 .Device = nullptr});
+                 .Device = nullptr,
+                 .StackBytes = Runner.Shape.StackBytes,
+                 .Stacks = stackBytes(Runner.Shape)});
   });
   Runner.run();
   return Reports;

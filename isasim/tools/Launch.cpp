@@ -77,7 +77,7 @@ Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
                                          const std::string &What) {
   for (const AddressRange &Part : globalRanges(Device->config())) {
     const uint64_t Address = std::max<uint64_t>(NextFree, Part.Base);
-    const uint64_t End = Part.Base + Part.Bytes;
+    const uint64_t End = std::min(Part.Base + Part.Bytes, StacksBegin);
     if (Address > End || Bytes > End - Address)
       continue;
     Watch->allocated(static_cast<uint32_t>(Address), Bytes, What);
@@ -171,6 +171,13 @@ Expected<uint64_t> KernelLaunch::packArguments(const Kernel &K,
 
 Expected<Success> KernelLaunch::write(const Launch &L, const Kernel &K) {
   const LaunchParts &Bytes = L.bytes();
+  StacksBegin = L.stacksBegin();
+  if (NextFree > StacksBegin)
+    return Error{"",
+                 fmt::format("kernel {} needs stacks from 0x{:x} on, where "
+                             "its buffers lie",
+                             K.Name, StacksBegin),
+                 ExitCode::LimitReached};
   for (const auto &[Part, What] :
        {std::pair(&LaunchParts::Args, "the arguments"),
         std::pair(&LaunchParts::Context, "the memory kept across barriers"),
@@ -213,7 +220,7 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
   Shape->LocalBytes = *Local;
   const Expected<Launch> Planned = Launch::plan(*K, *Shape, M.config());
   if (!Planned)
-    return usage(Planned.error().What);
+    return Planned.error();
   if (Expected<Success> Ok = L.write(*Planned, *K); !Ok)
     return Ok.error();
   return L;

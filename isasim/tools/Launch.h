@@ -47,10 +47,11 @@ private:
   Machine *Device;
   Session *Watch;
   std::string Name;
-  uint64_t NextFree = 0;       ///< in global memory or before it; nothing is
-                               ///< ever freed
-  std::vector<std::byte> Args; ///< packed
-  LaunchParts Parts;           ///< addresses
+  uint64_t NextFree = 0; ///< in global memory or before it; nothing is
+                         ///< ever freed
+  uint64_t StacksBegin = UINT64_MAX; ///< nothing lies there or behind it
+  std::vector<std::byte> Args;       ///< packed
+  LaunchParts Parts;                 ///< addresses
   std::vector<Output> Outputs;
   std::vector<GivenMemory> Given;
 };

@@ -168,6 +168,7 @@ private:
   void followStackPointer(const GuestInsn &G);
   void atStackLine(const GuestInsn &G, Xbyak::Label &Wrong,
                    const std::function<void(const Xbyak::RegExp &)> &Access);
+  void jumpUnlessOwn(Xbyak::Label &Others);
   void writeStackFinders();
   void writeOwnStackFinder();
 

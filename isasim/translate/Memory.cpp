@@ -131,9 +131,12 @@ void Emitter::writeFinders() {
     Label Found;
     L(IsStore ? FindWritable : FindReadable);
     mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
-    for (const int In : {InGlobal, InLocal, InHigh, InImage}) {
-      if (In == InImage && IsStore)
-        continue;
+    constexpr int Next = sizeof(isasim::Region);
+    const std::vector<int> Where =
+        IsStore ? std::vector{InGlobal, InLocal, InHigh, InRest, InRest + Next}
+                : std::vector{InGlobal, InLocal, InHigh,
+                              InImage,  InWhole, InWhole + Next};
+    for (const int In : Where) {
       lea(rcx, ptr[rsi + In]);
       mov(r11d, eax);
       sub(r11d, dword[rcx + RegionLo]);
@@ -203,6 +206,8 @@ void Emitter::load(const GuestInsn &G) {
   ++Pending.Loads;
   if (isOnStack(G))
     return loadFromStack(G, Wrong);
+  if (I->Rs1 == StackPointer)
+    return jmp(Wrong);
   const Zmm Addresses = addressesOf(I);
   const Zmm Bases = scratch(), Spread = scratch();
   const auto FromOne = [=, this, &Wrong](Label &Differ) {
@@ -261,6 +266,8 @@ void Emitter::store(const GuestInsn &G) {
   ++Pending.Stores;
   if (isOnStack(G))
     return storeToStack(G, Wrong);
+  if (I->Rs1 == StackPointer)
+    return jmp(Wrong);
   const Zmm Addresses = addressesOf(I);
   const Zmm Values = inZmm(guest(I->Rs2));
   const Zmm Bases = scratch(), Spread = scratch();

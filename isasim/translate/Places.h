@@ -25,6 +25,8 @@ inline constexpr int InGlobal = offsetof(MemoryView, Global),
                      InStack = offsetof(MemoryView, Stack),
                      InImage = offsetof(MemoryView, Image),
                      InHigh = offsetof(MemoryView, High),
+                     InRest = offsetof(MemoryView, Rest),
+                     InWhole = offsetof(MemoryView, Whole),
                      InShift = offsetof(MemoryView, StackShift);
 
 } // namespace vorion::isasim::translate

@@ -18,7 +18,6 @@ using namespace Xbyak::util;
 
 namespace {
 
-constexpr uint16_t StackPointer = 2 * sizeof(LaneWords);
 constexpr int32_t WordBytes = 4, LineBytes = WordBytes * StackGroup;
 
 /// From the line of the stack pointer to that of \p Imm: stacks grow downwards,
@@ -120,6 +119,17 @@ void Emitter::locateOnStack(const Zmm &Addresses, Label &Wrong) {
   jz(Wrong);
 }
 
+/// Goes to \p Others unless eax is the number of lane 0's own stack, or stacks
+/// are the program's affair.
+void Emitter::jumpUnlessOwn(Label &Others) {
+  Label Own;
+  cmp(eax, dword[rdi + VORION_PLACE(FirstStack)]);
+  je(Own);
+  cmp(dword[rdi + VORION_PLACE(FirstStack)], WarpState::NoOwnStack);
+  jne(Others);
+  L(Own);
+}
+
 /// Functions of a mode.
 void Emitter::writeStackFinders() {
   // rcx becomes where the word at eax of lane 0's stack lies, if those of the
@@ -149,6 +159,7 @@ void Emitter::writeStackFinders() {
   shr(eax, cl); // lane 0's hart
   test(eax, StackGroup - 1);
   jnz(Fails);
+  jumpUnlessOwn(Fails);
   mov(r11d, ~0U);
   shl(r11d, cl);
   and_(r11d, edx); // of the stacks in front
@@ -202,6 +213,7 @@ void Emitter::writeOwnStackFinder() {
   shr(eax, cl); // lane 0's hart
   test(eax, StackGroup - 1);
   jnz(None);
+  jumpUnlessOwn(None);
   mov(r11d, ~0U);
   shl(r11d, cl);
   and_(r11d, edx); // of the stacks in front

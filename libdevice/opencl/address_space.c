@@ -6,24 +6,24 @@
 
 uint32_t vx_mscratch(void) __asm("vorion.vx_mscratch")
     __attribute__((convergent, nomerge, nothrow));
-uint32_t vx_num_threads(void) __asm("vorion.vx_num_threads")
-    __attribute__((convergent, nomerge, nothrow));
-uint32_t vx_num_warps(void) __asm("vorion.vx_num_warps")
-    __attribute__((convergent, nomerge, nothrow));
 uint32_t vx_stack_size(void) __asm("vorion.vx_stack_size")
     __attribute__((convergent, nomerge, nothrow));
 uint32_t vx_num_cores(void) __asm("vorion.vx_num_cores")
     __attribute__((convergent, nomerge, nothrow));
 
+/* The number of the stack that holds an address, from the top. */
+static uint32_t stack_of(uint32_t address) {
+  return (VX_STACK_TOP - 1 - address) / vx_stack_size();
+}
+
 typedef enum { Global, Local, Private } space;
 
 static space space_of(const void *pointer) {
   const uint32_t address = (uint32_t)pointer;
+  char here;
   if (address >= VX_LOCAL_BASE)
     return Local;
-  const uint32_t stack_bytes =
-      vx_num_cores() * vx_num_warps() * vx_num_threads() * vx_stack_size();
-  if (address >= VX_STACK_TOP - stack_bytes)
+  if (stack_of(address) == stack_of((uint32_t)&here))
     return Private;
   const vx_launch *launch = (const vx_launch *)vx_mscratch();
   const uint32_t context_bytes =

@@ -25,18 +25,19 @@ static int print_to_console(enum vx_dialect dialect, const char *format,
   return result;
 }
 
-static int print_to_buffer(vx_launch *launch, enum vx_dialect dialect,
+static int print_to_buffer(const vx_launch *launch, enum vx_dialect dialect,
                            const char *format, va_list list, uint *count) {
   /* Measured first, so that one atomic add gives the text a place of its own.
    */
   struct vx_text text = {.count = 0};
   const int result = vx_format(&text, dialect, format, list);
   *count = text.count;
+  vx_print *const print = (vx_print *)launch->print_buffer;
   const uint at =
-      __atomic_fetch_add(&launch->print_used, text.count, __ATOMIC_RELAXED);
+      __atomic_fetch_add(&print->used, text.count, __ATOMIC_RELAXED);
   const uint capacity = launch->print_capacity;
   if (at < capacity) {
-    char *const buffer = (char *)launch->print_buffer;
+    char *const buffer = (char *)(print + 1);
     text = (struct vx_text){.at = buffer + at, .end = buffer + capacity};
     vx_format(&text, dialect, format, list);
   }
@@ -45,7 +46,7 @@ static int print_to_buffer(vx_launch *launch, enum vx_dialect dialect,
 }
 
 int vx_vprint(enum vx_dialect dialect, const char *format, va_list list) {
-  vx_launch *const launch = (vx_launch *)vx_mscratch();
+  const vx_launch *const launch = (const vx_launch *)vx_mscratch();
   uint count = 0;
   const int result =
       launch ? print_to_buffer(launch, dialect, format, list, &count)

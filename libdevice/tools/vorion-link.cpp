@@ -1,10 +1,12 @@
 /// The linker step of every program for the device: refuses objects that were
 /// not compiled for XVortex. Then lld links the others with the device's
-/// start-up code, linker script and library. vorion-clang calls it as its
-/// linker, so it takes lld's options.
+/// start-up code, linker script and library, and it writes into the program how
+/// much of a stack each kernel needs. vorion-clang calls it as its linker, so
+/// it takes lld's options.
 
 #include "Lld.h"
 #include "ObjectCheck.h"
+#include "StackDepth.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/HelpText.h"
@@ -21,9 +23,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <optional>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vorion_abi.h>
 
 using namespace vorion;
 namespace fs = std::filesystem;
@@ -157,6 +161,33 @@ Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
   return Success{};
 }
 
+/// Completes the kernel table of \p Output, and warns of what no machine runs.
+Expected<Success> addStackNeeds(const std::string &Output) {
+  std::error_code Failed;
+  if (!fs::is_regular_file(Output, Failed))
+    return Success{};
+  Expected<std::vector<std::byte>> Program = readFile(Output);
+  if (!Program)
+    return Program.error();
+  const auto Needs = link::writeStackNeeds(*Program, Output);
+  if (!Needs)
+    return Needs.error();
+  for (const link::StackNeed &Need : *Needs)
+    if (Need.Bytes > VX_MAX_STACK_ROOM)
+      printDiagnostic(Tool, "warning", Output,
+                      fmt::format("{} needs a stack of {} bytes for each "
+                                  "work-item, expected at most the {} that a "
+                                  "machine can have",
+                                  Need.Name, Need.Bytes, VX_MAX_STACK_ROOM));
+  std::fstream File(Output, std::ios::in | std::ios::out | std::ios::binary);
+  File.write(reinterpret_cast<const char *>(Program->data()),
+             static_cast<std::streamsize>(Program->size()));
+  File.close();
+  if (!File)
+    return Error{Output, "cannot be written, expected free space there"};
+  return Success{};
+}
+
 Expected<Success> linkProgram(const CommandLine &Line) {
   for (const std::string &Input : Line.Inputs) {
     const auto Bytes = readFile(Input);
@@ -184,7 +215,10 @@ Expected<Success> linkProgram(const CommandLine &Line) {
 
   // lld leaves its old output in place when it fails half way, and writes
   // through a file of its own, so the name is safe to give to it.
-  return runLinker(Arguments);
+  if (const Expected<Success> Linked = runLinker(Arguments);
+      !Linked || Line.Relocatable)
+    return Linked;
+  return addStackNeeds(Line.Output);
 }
 
 int run(int Argc, char **Argv) {

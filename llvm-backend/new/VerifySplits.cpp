@@ -12,6 +12,7 @@
 
 #include "RISCVSubtarget.h"
 #include "Resources.h"
+#include "StackUse.h"
 #include "Vorion.h"
 #include "VorionCsrs.h"
 #include "llvm/ADT/PostOrderIterator.h"
@@ -224,6 +225,7 @@ bool VerifySplits::runOnMachineFunction(MachineFunction &MF) {
     for (const MachineBasicBlock *Successor : Block->successors())
       Work.push_back({Successor, State});
   }
+  vorion::recordStackUse(MF);
   vorion::writeResources(MF);
   return false;
 }

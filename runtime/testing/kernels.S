@@ -41,7 +41,7 @@ store:
 copy_launch:
     bnez    a2, 2f
     lw      t0, 0(a0)
-    li      t1, VX_LAUNCH_PRINT_USED + 4
+    li      t1, VX_LAUNCH_STACK_BYTES + 4
 1:  lw      t2, 0(a1)
     sw      t2, 0(t0)
     addi    a1, a1, 4
@@ -76,13 +76,13 @@ print:
     bnez    a2, 1f
     lw      t0, VX_LAUNCH_PRINT_BUFFER(a1)
     li      t1, 'h'
-    sb      t1, 0(t0)
+    sb      t1, SIZEOF_VX_PRINT(t0)
     li      t1, 'i'
-    sb      t1, 1(t0)
+    sb      t1, SIZEOF_VX_PRINT+1(t0)
     li      t1, '\n'
-    sb      t1, 2(t0)
+    sb      t1, SIZEOF_VX_PRINT+2(t0)
     lw      t1, 0(a0)
-    sw      t1, VX_LAUNCH_PRINT_USED(a1)
+    sw      t1, VX_PRINT_USED(t0)
 1:  ret
 
 fault:
@@ -151,9 +151,9 @@ args_print:
 .ifndef LANES // the build makes an image for another machine, too
     .set LANES, 0
 .endif
-.macro kernel label, args, num_args, args_bytes, context=0, local=0, size_x=0, size_y=0, size_z=0, lanes=LANES
+.macro kernel label, args, num_args, args_bytes, context=0, local=0, size_x=0, size_y=0, size_z=0, lanes=LANES, stack=0
     .word name_\label, \label, \args, \num_args, \args_bytes, \context, \local
-    .word \size_x, \size_y, \size_z, \lanes
+    .word \size_x, \size_y, \size_z, \lanes, \stack
 .endm
     .section vorion_kernels, "a"
     .p2align 2

@@ -127,4 +127,4 @@ args:
   .set LANES, 0
   .endif
   .section vorion_kernels, "a", @progbits
-  .word name, scale, args, 4, 16, 0, 0, 0, 0, 0, LANES
+  .word name, scale, args, 4, 16, 0, 0, 0, 0, 0, LANES, 0

@@ -10,6 +10,8 @@ namespace vorion::isasim {
 
 void Places::begin(const RunStart &R) {
   Shape = R.Shape;
+  Shape.StackBytes = R.StackBytes;
+  Stacks = R.Stacks;
   Code = R.Program;
   HasLaunch = R.Launch != nullptr;
   Launch = HasLaunch ? *R.Launch : VxLaunch{};
@@ -18,8 +20,6 @@ void Places::begin(const RunStart &R) {
 Places::Kind Places::kindOf(uint32_t Address) const {
   if (Address >= VX_LOCAL_BASE)
     return Local;
-  const uint64_t Stacks = uint64_t{Shape.cores()} * Shape.WarpsPerCore *
-                          Shape.LanesPerWarp * Shape.StackBytes;
   if (Address >= VX_STACK_TOP - Stacks)
     return Stack;
   if (Address - VX_IMAGE_BASE < VX_IMAGE_SIZE)

@@ -51,6 +51,7 @@ public:
            Launch.ContextStride * Shape.cores() * Launch.Warps;
   }
 
+  /// That of the machine, with the stacks of the run.
   const Config &shape() const { return Shape; }
   /// Of the run, all 0 if it has none.
   const VxLaunch &launch() const { return Launch; }
@@ -76,6 +77,7 @@ private:
   }
 
   Config Shape;
+  uint64_t Stacks = 0; ///< bytes of all of them
   std::shared_ptr<const Image> Code;
   VxLaunch Launch{};
   bool HasLaunch = false;

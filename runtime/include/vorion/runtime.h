@@ -167,6 +167,7 @@ typedef struct vx_kernel_info {
   uint32_t local_size[3];   /* group size it was compiled for, 0 for any */
   uint32_t lanes;           /* of the warps it was compiled for, 0 for any */
   uint32_t variables_bytes; /* of program scope, 0 if it uses none */
+  uint32_t stack_bytes;     /* of a lane that it needs, 0 if not known */
 } vx_kernel_info;
 
 vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
@@ -219,7 +220,9 @@ typedef struct vx_launch_params {
   uint32_t local_bytes;
 } vx_launch_params;
 
-/* Starts a kernel; args: args_bytes of it, copied before the call returns. */
+/* Starts a kernel; args: args_bytes of it, copied before the call returns.
+ * VX_ERROR_MEMORY: there is no room for what the launch itself needs, such as
+ * its stacks (docs/abi.md). */
 vx_status vx_start(vx_device *device, vx_image *image, uint32_t kernel,
                    const vx_launch_params *params, const void *args,
                    uint32_t args_bytes);

@@ -317,8 +317,10 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   }
   if (Failed)
     return *Failed;
-  if (const Ran Linker = runStep(Line, Link); !Linker.Succeeded)
+  const Ran Linker = runStep(Line, Link);
+  if (!Linker.Succeeded)
     return linkerError(Line.Output.string(), Linker.Output);
+  std::cerr << Linker.Output << std::flush;
   return Success{};
 }
 

@@ -43,7 +43,8 @@ struct Kernel {
   uint32_t ContextBytes = 0;           ///< a work-item, kept across barriers
   uint32_t LocalBytes = 0;             ///< static local memory
   std::array<uint32_t, 3> LocalSize{}; ///< 0 for any
-  uint32_t Lanes = 0; ///< of the warps it was compiled for, 0 for any
+  uint32_t Lanes = 0;      ///< of the warps it was compiled for, 0 for any
+  uint32_t StackBytes = 0; ///< that it needs of a lane's stack, 0 if not known
   /// Whether several warps of a core may run its groups.
   bool SharesCore = false;
   ProgramVariables Variables;
@@ -91,6 +92,8 @@ public:
   /// The file, as it was given to parse().
   std::span<const std::byte> file() const { return File; }
   uint32_t entry() const { return Entry; }
+  /// What main() needs of a lane's stack, 0 if not known.
+  uint32_t mainStackBytes() const { return MainStackBytes; }
   /// Where a launch of several warps a core begins, 0 for nowhere.
   uint32_t warpsEntry() const { return WarpsEntry; }
   const std::vector<Segment> &segments() const { return Segments; }
@@ -121,7 +124,7 @@ private:
 
   std::string Name;
   std::vector<std::byte> File;
-  uint32_t Entry = 0, WarpsEntry = 0;
+  uint32_t Entry = 0, WarpsEntry = 0, MainStackBytes = 0;
   std::vector<Segment> Segments; ///< by address
   std::vector<Symbol> Symbols;   ///< by address
   std::vector<Kernel> Kernels;

@@ -27,8 +27,9 @@ inline constexpr uint32_t MaxGroupItems = 1024;
 /// Groups of a launch: the start-up code's group number plus the number of
 /// cores must not wrap.
 inline constexpr uint64_t MaxGroups = uint64_t{1} << 31;
-/// Bytes of printf that a launch keeps: OpenCL's least
-/// CL_DEVICE_PRINTF_BUFFER_SIZE of the full profile.
+/// Bytes of a launch's print buffer: OpenCL's least
+/// CL_DEVICE_PRINTF_BUFFER_SIZE of the full profile. A few of them say how many
+/// others are in use.
 inline constexpr uint32_t PrintBytes = 1 << 20;
 
 /// \p Bytes, rounded up to LaunchAlignment.
@@ -68,13 +69,19 @@ struct LaunchParts {
 class Launch {
 public:
   /// Errors: a shape that \p K or any launch cannot have (Usage); local memory,
-  /// or memory that is kept across barriers, that a machine of \p C has not
-  /// (LimitReached).
+  /// stacks, or memory that is kept across barriers, that a machine of \p C has
+  /// not (LimitReached).
   static Expected<Launch> plan(const Kernel &K, const LaunchShape &S,
                                const Config &C);
 
   /// The bytes of each part.
   const LaunchParts &bytes() const { return Bytes; }
+
+  /// The bytes at the end of global memory that the stacks cover, and that
+  /// nothing else may lie in while the launch runs.
+  uint64_t bytesUnderStacks() const { return BytesUnderStacks; }
+  /// Where the stacks begin.
+  uint64_t stacksBegin() const { return StacksBegin; }
 
   /// Writes block and arguments to where \p Addresses says, and tells \p Watch.
   void write(Machine &M, Session &Watch, const LaunchParts &Addresses,
@@ -88,6 +95,8 @@ private:
   uint32_t Cores = 1;
   uint32_t ContextStride = 0, LocalStride = 0;
   uint32_t Warps = 1; ///< of a core
+  uint32_t StackBytes = 0;
+  uint64_t StacksBegin = 0, BytesUnderStacks = 0;
 };
 
 /// The bytes to allocate for \p V, with room to align them.

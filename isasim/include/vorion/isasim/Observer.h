@@ -35,7 +35,9 @@ struct RunStart {
   const VxLaunch *Launch; ///< what it holds; nullptr for none
   /// All cores, reset. Stay where they are as long as the machine.
   std::span<const std::unique_ptr<Core>> Cores;
-  Machine *Device; ///< nullptr where a test runs a core alone
+  Machine *Device;     ///< nullptr where a test runs a core alone
+  uint32_t StackBytes; ///< of each lane
+  uint64_t Stacks;     ///< bytes of all of them, below VX_STACK_TOP
 };
 
 /// The memory that one instruction accesses.

@@ -20,7 +20,7 @@ enum class TrapCause {
   DivergenceUnderflow, ///< vx_join on an empty stack
   EmptyMask,           ///< vx_pred left no lane active
   BadBarrier,          ///< vx_bar of a barrier that the machine does not have
-  StackOverflow,       ///< an access by sp left the lane's own stack
+  StackOverflow,       ///< an access left the lane's own stack
   DivergentBarrier,    ///< vx_bar on a path that only some lanes have taken
 };
 

@@ -59,7 +59,7 @@ out: .asciz "log"
 args:
   .word out, VX_ARG_GLOBAL, 0, 4
   .section vorion_kernels, "a", @progbits
-  .word name, _start, args, 1, 4, 0, 0, 0, 0, 0, 0
+  .word name, _start, args, 1, 4, 0, 0, 0, 0, 0, 0, 0
 
   .data
   .balign 4

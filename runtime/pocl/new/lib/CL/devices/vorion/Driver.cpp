@@ -124,6 +124,17 @@ void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
     tellFailure(Kernel->context, Problem.status(), Problem.Text);
 }
 
+cl_int privateBytes(cl_device_id Device, cl_uint Index, cl_kernel Kernel,
+                    cl_ulong *Bytes) {
+  KernelCache::Problem Problem;
+  *Bytes =
+      deviceOf(Device).Kernels.privateBytes(Kernel, Device, Index, Problem);
+  if (Problem.Text.empty())
+    return CL_SUCCESS;
+  tellFailure(Kernel->context, CL_OUT_OF_RESOURCES, Problem.Text);
+  return CL_OUT_OF_RESOURCES;
+}
+
 /// A program's binary has the kernels that were started before. PoCL compiles
 /// all others for groups of any size, too: no start asks for these, but
 /// vorion-clang does.
@@ -325,6 +336,7 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
   Ops->supports_binary = pocl_driver_supports_binary;
   Ops->free_program = freeProgram;
   Ops->compile_kernel = compileKernel;
+  Ops->kernel_private_bytes = privateBytes;
   Ops->compute_local_size = pocl_default_local_size_optimizer;
 
   Ops->submit = submit;

@@ -12,6 +12,7 @@ extern "C" {
 #include <CL/cl_vorion.h>
 #include <vorion_abi.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -169,15 +170,16 @@ KernelCache::Problem KernelCache::compile(_cl_command_node *Command,
   return isIntact(Path) ? Problem() : make(Command, Kernel, Specialize, Path);
 }
 
-const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P) {
+const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P,
+                                     bool Specialize) {
   cl_kernel Kernel = Command->command.run.kernel;
   std::lock_guard Guard(CompileLock);
-  const std::string Path = imagePath(Command, Kernel, true);
+  const std::string Path = imagePath(Command, Kernel, Specialize);
   auto &Kernels = Loaded[Kernel->program].Kernels;
   if (auto Found = Kernels.find(Path); Found != Kernels.end())
     return &Found->second;
 
-  P = compile(Command, Kernel, true);
+  P = compile(Command, Kernel, Specialize);
   if (!P.Text.empty())
     return nullptr;
   LoadedKernel New;
@@ -192,6 +194,34 @@ const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P) {
     return nullptr;
   }
   return &Kernels.emplace(Path, std::move(New)).first->second;
+}
+
+cl_ulong KernelCache::privateBytes(cl_kernel Kernel, cl_device_id Id,
+                                   cl_uint Index, Problem &P) {
+  const auto Needs = [](const LoadedKernel &Of) {
+    return cl_ulong{Of.Info.stack_bytes} + Of.Info.context_bytes;
+  };
+  cl_ulong Most = 0;
+  {
+    std::lock_guard Guard(CompileLock);
+    for (const auto &[Path, Known] : Loaded[Kernel->program].Kernels)
+      if (!strcmp(Known.Info.name, Kernel->name))
+        Most = std::max(Most, Needs(Known));
+  }
+  if (Most != 0)
+    return Most;
+  _cl_command_node Command{};
+  Command.type = CL_COMMAND_NDRANGE_KERNEL;
+  Command.device = Id;
+  Command.program_device_i = Index;
+  _cl_command_run &Run = Command.command.run;
+  Run.kernel = Kernel;
+  Run.hash = Kernel->meta->build_hash[Index];
+  std::copy_n(Kernel->meta->reqd_wg_size, 3, Run.pc.local_size);
+  // No code for ranges that begin at 0.
+  std::fill_n(Run.pc.global_offset, 3, 1);
+  const LoadedKernel *Found = get(&Command, P, Run.pc.local_size[0] != 0);
+  return Found ? Needs(*Found) : 0;
 }
 
 std::optional<uint32_t> KernelCache::variables(cl_program Program,

@@ -49,9 +49,18 @@ public:
   /// there. What goes wrong is also added to the build log.
   Problem compile(_cl_command_node *Command, cl_kernel Kernel, bool Specialize);
 
-  /// The command's kernel, compiled and loaded; null and \p P on failure. Valid
-  /// until the next call of forget().
-  const LoadedKernel *get(_cl_command_node *Command, Problem &P);
+  /// The command's kernel, compiled for its group size, or for any if not
+  /// \p Specialize, and loaded; null and \p P on failure. Valid until the next
+  /// call of forget().
+  const LoadedKernel *get(_cl_command_node *Command, Problem &P,
+                          bool Specialize = true);
+
+  /// The private memory of a work-item of \p Kernel in bytes: its stack, and
+  /// what it keeps across barriers. The most that the group sizes need for
+  /// which it is loaded; if there are none, it is compiled. Device \p Index of
+  /// its program is \p Id.
+  cl_ulong privateBytes(cl_kernel Kernel, cl_device_id Id, cl_uint Index,
+                        Problem &P);
 
   /// The variables of program scope of \p Program, which \p Kernel uses. None
   /// if there is no memory for them. Valid until the next call of forget().

@@ -207,7 +207,8 @@ private:
         {text(Kernel.Name), &Entry, Table, number(Arguments.size()),
          number(End), number(ContextBytes), number(LocalBytes),
          number(Kernel.LocalSize[0]), number(Kernel.LocalSize[1]),
-         number(Kernel.LocalSize[2]), number(pocl::simtLanes(M))});
+         number(Kernel.LocalSize[2]), number(pocl::simtLanes(M)),
+         number(0)}); // its stack, which vorion-link knows
     addRow(Record, "vorion_kernel", "vorion_kernels");
   }
 

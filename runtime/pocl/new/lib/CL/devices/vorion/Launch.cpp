@@ -36,11 +36,6 @@ struct Failing {
   }
 };
 
-cl_int statusOf(vx_status Status) {
-  return Status == VX_ERROR_MEMORY ? CL_MEM_OBJECT_ALLOCATION_FAILURE
-                                   : CL_OUT_OF_RESOURCES;
-}
-
 /// The address that a pointer argument stands for, 0 for a null pointer.
 uint32_t deviceAddress(const pocl_argument &Argument, cl_device_id Device) {
   if (!Argument.value)
@@ -139,7 +134,7 @@ cl_int runPart(vx_device *Device, KernelCache &Kernels,
   if (Status == VX_OK)
     Status = vx_wait(Device, &Result);
   if (Status != VX_OK)
-    return Fail.kernel(statusOf(Status), vx_last_error());
+    return Fail.kernel(CL_OUT_OF_RESOURCES, vx_last_error());
 
   if (Result.print_bytes) {
     fwrite(Result.print_text, 1, Result.print_bytes, stdout);
