@@ -21,32 +21,11 @@ void write(std::string_view Text) {
   static_cast<void>(std::fwrite(Text.data(), 1, Text.size(), stderr));
 }
 
-/// The action of the signal is the default one again.
-void endBy(int Signal) {
-  keepStatus();
-  static_cast<void>(std::raise(Signal));
-}
-
-/// Whoever handles a signal of its own goes on to do so.
-bool catchInterrupts() {
-  for (const int Signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction Action{};
-    if (::sigaction(Signal, nullptr, &Action) != 0 ||
-        Action.sa_handler != SIG_DFL)
-      continue;
-    Action.sa_handler = endBy;
-    Action.sa_flags = SA_RESETHAND | SA_NODEFER;
-    ::sigaction(Signal, &Action, nullptr);
-  }
-  return true;
-}
-
 } // namespace
 
 void showStatus(std::string_view Text) {
   if (!canOverwrite())
     return;
-  [[maybe_unused]] static const bool AreCaught = catchInterrupts();
   // A terminal begins a new line when its last column is filled.
   const std::size_t Columns = columnsOf(STDERR_FILENO).value_or(80);
   const std::string Shown = escaped(Text);

@@ -1,6 +1,7 @@
 #include "vorion/support/Tool.h"
 
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/RemovedAtEnd.h"
 #include "vorion/support/StatusLine.h"
 
 #include <cerrno>
@@ -38,10 +39,16 @@ int reportFullOutput(std::string_view Tool, int Cause) {
 /// Of the tool; empty before its main function.
 std::string_view ToolName;
 
-/// Without taking memory, of which there may be none, and in a signal's
-/// handler, too.
-int reportLimit(std::string_view What) {
+/// What is left to do where no destructor is called, as in the handler of a
+/// signal. Takes no memory, of which there may be none.
+void tidyUp() {
   keepStatus();
+  removeAtEnd();
+}
+
+/// As tidyUp().
+int reportLimit(std::string_view What) {
+  tidyUp();
   for (const std::string_view Part :
        {ToolName.empty() ? std::string_view(program_invocation_short_name)
                          : ToolName,
@@ -59,6 +66,12 @@ int reportNoMemory() {
 void endWithoutTime(int /*Signal*/) {
   ::_exit(reportLimit("the limit of processor time (ulimit -t) is reached, "
                       "expected a higher one"));
+}
+
+/// The action of the signal is the default one again.
+void endBy(int Signal) {
+  tidyUp();
+  static_cast<void>(::raise(Signal));
 }
 
 /// Limits of the shell (ulimit) whose signals end a process without a message.
@@ -87,9 +100,22 @@ void catchLimits() {
 
 } // namespace
 
+void catchEndingSignals() {
+  for (const int Signal : {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM}) {
+    struct sigaction Action{};
+    if (::sigaction(Signal, nullptr, &Action) != 0 ||
+        Action.sa_handler != SIG_DFL)
+      continue;
+    Action.sa_handler = endBy;
+    Action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_NODEFER;
+    ::sigaction(Signal, &Action, nullptr);
+  }
+}
+
 int runTool(std::string_view Tool, const std::function<int()> &Body) {
   keepStandardStreams();
   ToolName = Tool;
+  catchEndingSignals();
   catchLimits();
   int Code = 0;
   try {

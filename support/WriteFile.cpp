@@ -1,6 +1,7 @@
 #include "vorion/support/File.h"
 
 #include "Descriptor.h"
+#include "vorion/support/RemovedAtEnd.h"
 
 #include <atomic>
 #include <cerrno>
@@ -75,7 +76,7 @@ public:
   }
   TemporaryFile(TemporaryFile &&From) noexcept
       : Name(std::exchange(From.Name, {})), Target(std::move(From.Target)),
-        File(std::move(From.File)) {}
+        AtEnd(std::move(From.AtEnd)), File(std::move(From.File)) {}
   TemporaryFile &operator=(TemporaryFile &&) = delete;
   ~TemporaryFile() {
     if (!Name.empty())
@@ -97,8 +98,10 @@ public:
 
 private:
   TemporaryFile(std::string NameIn, std::string TargetIn, int Number)
-      : Name(std::move(NameIn)), Target(std::move(TargetIn)), File(Number) {}
+      : Name(std::move(NameIn)), Target(std::move(TargetIn)), AtEnd(Name),
+        File(Number) {}
   std::string Name, Target;
+  RemovedAtEnd AtEnd;
   Descriptor File;
 };
 

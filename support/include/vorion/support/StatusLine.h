@@ -8,8 +8,8 @@
 namespace vorion {
 
 /// Puts \p Text in the place of what the line shows: as much of it as fits into
-/// the terminal, whose width is asked for each time. An interrupt that ends the
-/// process meanwhile ends the line first.
+/// the terminal, whose width is asked for each time. An interrupt that ends a
+/// tool meanwhile ends the line first (Tool.h).
 void showStatus(std::string_view Text);
 
 /// Removes the line, so that something else can be printed there.

@@ -3,6 +3,7 @@
 
 #include "vorion/support/Environment.h"
 #include "vorion/support/Expected.h"
+#include "vorion/support/RemovedAtEnd.h"
 #include "vorion/support/Trust.h"
 
 #include <cerrno>
@@ -18,7 +19,7 @@
 namespace vorion {
 
 /// Below TMPDIR, where nobody else can replace it. It goes with all that is in
-/// it when this does.
+/// it when this does, or where a signal ends a tool (RemovedAtEnd.h).
 class TemporaryFolder {
 public:
   /// Its name begins with \p Prefix.
@@ -36,7 +37,8 @@ public:
     return Made;
   }
   TemporaryFolder(TemporaryFolder &&From) noexcept
-      : Path(std::exchange(From.Path, {})), Maker(From.Maker) {}
+      : Path(std::exchange(From.Path, {})), Maker(From.Maker),
+        AtEnd(std::move(From.AtEnd)) {}
   TemporaryFolder &operator=(TemporaryFolder &&) = delete;
   ~TemporaryFolder() {
     std::error_code Ignored;
@@ -52,9 +54,11 @@ private:
     return {"", "cannot make a temporary folder: " + Why +
                     ", expected TMPDIR to allow one"};
   }
-  explicit TemporaryFolder(std::string PathIn) : Path(std::move(PathIn)) {}
+  explicit TemporaryFolder(std::string PathIn)
+      : Path(std::move(PathIn)), AtEnd(Path) {}
   std::string Path;
   pid_t Maker = ::getpid();
+  RemovedAtEnd AtEnd;
 };
 
 } // namespace vorion

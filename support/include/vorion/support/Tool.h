@@ -11,7 +11,13 @@ namespace vorion {
 /// the name of \p Tool: memory that ran out, in whatever thread, as a
 /// limit, anything else as a bug of ours. From here on a limit of the size of
 /// files (ulimit -f) is an error of whatever writes, and one of processor time
-/// (ulimit -t) ends in one line.
+/// (ulimit -t) ends in one line; and catchEndingSignals() has been called.
 int runTool(std::string_view Tool, const std::function<int()> &Body);
+
+/// From here on SIGHUP, SIGINT, SIGPIPE, SIGQUIT and SIGTERM leave a whole
+/// status line and no temporary file behind (RemovedAtEnd.h) when they end the
+/// process. One that does not have its default action keeps the one that it
+/// has. For who has set one back to the default.
+void catchEndingSignals();
 
 } // namespace vorion
