@@ -14,7 +14,6 @@ import http.client
 import json
 import math
 import os
-import signal
 import struct
 import subprocess
 import time
@@ -96,7 +95,7 @@ def main():
         try:
             return measure(args, urllib.parse.urlsplit(process.stdout.readline().split()[-1]), process)
         finally:
-            process.send_signal(signal.SIGINT)
+            process.terminate()
 
 
 if __name__ == "__main__":

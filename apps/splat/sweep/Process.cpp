@@ -79,6 +79,8 @@ Expected<Success> runSplat(const std::vector<std::string> &Arguments,
   posix_spawn_file_actions_addopen(&Actions, STDOUT_FILENO, LogFile.c_str(),
                                    O_WRONLY | O_CREAT | O_TRUNC, 0666);
   posix_spawn_file_actions_adddup2(&Actions, STDOUT_FILENO, STDERR_FILENO);
+  // What another thread opens at this moment is not for it.
+  posix_spawn_file_actions_addclosefrom_np(&Actions, STDERR_FILENO + 1);
   pid_t Child = 0;
   const int Problem =
       posix_spawn(&Child, "/proc/self/exe", &Actions, nullptr,

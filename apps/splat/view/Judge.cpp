@@ -71,12 +71,14 @@ const reference::Gaussians<Real> &Judge::activated(const ShownScene &S) {
 }
 
 Expected<std::shared_ptr<const std::vector<double>>>
-Judge::picture(const std::shared_ptr<const ShownScene> &S, const Camera &View) {
-  const uint64_t Own = ++Newest;
-  const std::lock_guard Held(Lock);
+Judge::picture(const std::shared_ptr<const ShownScene> &S, const Camera &View,
+               const std::function<bool()> &GiveUp) {
+  if (!Lock.lockUnless(GiveUp))
+    return superseded();
+  const std::lock_guard Held(Lock, std::adopt_lock);
   if (Last.Picture && Last.Scene == S->Number && Last.View == View)
     return Last.Picture;
-  if (Own != Newest)
+  if (GiveUp())
     return superseded();
   const auto Drawn = reference::render(
       activated<double>(*S), toReference<double>(View), judgeOptions(*S));

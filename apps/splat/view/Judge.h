@@ -3,13 +3,13 @@
 #pragma once
 
 #include "reference/Types.h"
+#include "view/FairLock.h"
 #include "view/Request.h"
 #include "view/ShownScene.h"
 
-#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 namespace vorion::splat {
@@ -31,11 +31,12 @@ struct PixelGaussian {
 
 class Judge {
 public:
-  /// The picture of \p View, 3 values a pixel, by the defaults of all knobs. A
-  /// picture that a newer call waits for is not begun, which is an error; the
-  /// last one is kept.
+  /// The picture of \p View, 3 values a pixel, by the defaults of all knobs. It
+  /// is not begun if \p GiveUp says so meanwhile; the error is then
+  /// \c superseded(). The last one is kept.
   Expected<std::shared_ptr<const std::vector<double>>>
-  picture(const std::shared_ptr<const ShownScene> &S, const Camera &View);
+  picture(const std::shared_ptr<const ShownScene> &S, const Camera &View,
+          const std::function<bool()> &GiveUp);
 
   /// What pixel (\p R.X, \p R.Y) is made of, by the knobs of \p R that the
   /// reference has.
@@ -52,8 +53,7 @@ private:
   template <typename Real>
   const reference::Gaussians<Real> &activated(const ShownScene &S);
 
-  std::mutex Lock;
-  std::atomic<uint64_t> Newest = 0;
+  FairLock Lock;
   uint64_t Activated = 0; ///< number of the scene that these are of
   reference::Gaussians<double> InDouble;
   reference::Gaussians<float> InSingle;

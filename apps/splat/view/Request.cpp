@@ -122,7 +122,7 @@ std::optional<Heat> heatOf(Layer L) {
 Expected<ViewRequest> parseViewRequest(std::string_view Text) {
   // A request is small; its limits keep what is no page's from taking memory.
   const JsonLimits Limits{
-      .Depth = 8, .Bytes = 1 << 16, .Values = 256, .Keys = 32};
+      .Depth = 8, .Bytes = LargestViewRequest, .Values = 256, .Keys = 32};
   const auto Read = parseJson<Json>(Text, "", "a request of the page", Limits);
   if (!Read)
     return Error{"", Read.error().What, ExitCode::Usage};

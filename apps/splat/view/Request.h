@@ -8,6 +8,7 @@
 #include "vorion/support/Expected.h"
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,9 @@ namespace vorion::splat {
 /// Largest side of a picture of the page, pixels: more takes the simulated
 /// machine minutes.
 inline constexpr int MostViewed = 2048;
+
+/// Of the text of a request, bytes.
+inline constexpr std::size_t LargestViewRequest = 1 << 16;
 
 /// What is shown of a picture.
 enum class Layer {

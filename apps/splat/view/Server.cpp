@@ -1,30 +1,32 @@
 #include "view/Server.h"
 
 #include "io/Inside.h"
-#include "view/Interrupt.h"
+#include "view/Guard.h"
+#include "view/HttpServer.h"
 #include "view/PageFiles.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
+#include <array>
+#include <charconv>
 #include <cstring>
 #include <fmt/format.h>
-#include <httplib.h>
-#include <thread>
+#include <string_view>
 #include <utility>
 
 namespace vorion::splat {
 
+namespace http = boost::beast::http;
+
 namespace {
 
-constexpr const char *Loopback = "127.0.0.1";
 constexpr const char *TokenHeader = "X-Splat-Token";
+constexpr const char *PageHeader = "X-Splat-Page";
 
 /// The page may run its own scripts and talk to this server, and nothing else;
 /// no other page may show it in a frame.
-const httplib::Headers Always{
+const HttpServer::Fields Always{
     {"Content-Security-Policy",
      "default-src 'none'; script-src 'self'; style-src 'self'; "
      "connect-src 'self'; img-src 'self' data:; base-uri 'none'; "
@@ -34,30 +36,25 @@ const httplib::Headers Always{
     {"Cross-Origin-Resource-Policy", "same-origin"},
     {"Cache-Control", "no-store"}};
 
-bool isPage(const std::string &Path) {
-  return std::ranges::any_of(pageFiles(),
-                             [&](const PageFile &F) { return F.Path == Path; });
+HttpAnswer json(std::string Text) {
+  return {200, "application/json", std::move(Text)};
 }
 
-void answerJson(httplib::Response &To, const std::string &Text) {
-  To.set_content(Text, "application/json");
-}
-
-void refuse(httplib::Response &To, int Status, const std::string &Why) {
-  To.status = Status;
-  answerJson(To, jsonText(nlohmann::json{{"error", Why}}));
+HttpAnswer refusal(unsigned Status, const std::string &Why) {
+  HttpAnswer A = json(jsonText(nlohmann::json{{"error", Why}}));
+  A.Status = Status;
+  return A;
 }
 
 /// On one line, as a message of the command would have it.
-void refuse(httplib::Response &To, const Error &E) {
+HttpAnswer refusalOf(const Error &E) {
   const bool IsAskers =
       E.Code == ExitCode::Usage || E.Code == ExitCode::InputFile;
-  refuse(To,
-         isSuperseded(E) ? 409
-         : IsAskers      ? 400
-                         : 500,
-         E.Where.empty() ? escaped(E.What)
-                         : escaped(E.Where) + ": " + escaped(E.What));
+  return refusal(isSuperseded(E) ? 409
+                 : IsAskers      ? 400
+                                 : 500,
+                 E.Where.empty() ? escaped(E.What)
+                                 : escaped(E.Where) + ": " + escaped(E.What));
 }
 
 /// The facts' size in 4 bytes, little endian, the facts, the pixels.
@@ -69,6 +66,44 @@ std::string packed(const ViewAnswer &A) {
   return Bytes + Facts + A.Rgba;
 }
 
+/// What a request asks of its target.
+struct Target {
+  std::string_view Path, Query;
+  explicit Target(std::string_view Text)
+      : Path(Text.substr(0, Text.find('?'))),
+        Query(Text.substr(std::min(Text.size(), Path.size() + 1))) {}
+};
+
+std::string_view viewOf(boost::beast::string_view Text) {
+  return {Text.data(), Text.size()};
+}
+
+/// The bytes that \p Text has as %XX; what is none stays.
+std::string unescaped(std::string_view Text) {
+  std::string Bytes;
+  while (!Text.empty()) {
+    unsigned char Byte = 0;
+    if (Text[0] == '%' && Text.size() > 2 &&
+        std::from_chars(&Text[1], &Text[1] + 2, Byte, 16).ptr == &Text[1] + 2) {
+      Bytes += static_cast<char>(Byte);
+      Text.remove_prefix(3);
+    } else {
+      Bytes += Text[0];
+      Text.remove_prefix(1);
+    }
+  }
+  return Bytes;
+}
+
+std::string nameOfScene(const HttpRequest &R) {
+  constexpr std::string_view Key = "name=";
+  std::string_view Query = Target(viewOf(R.target())).Query;
+  if (!Query.starts_with(Key))
+    return "";
+  Query.remove_prefix(Key.size());
+  return asFileName(printable(unescaped(Query.substr(0, Query.find('&')))));
+}
+
 } // namespace
 
 struct Server::Parts {
@@ -76,96 +111,81 @@ struct Server::Parts {
 
   Guard Door;
   Session &Shown;
-  httplib::Server Http;
-  int Port = 0;
+  std::unique_ptr<HttpServer> Http;
 
-  void setUp();
-  void addRoutes();
+  std::variant<HttpAnswer, HttpWork> admit(const HttpHead &R);
+  HttpAnswer describe(const HttpCall &C);
+  HttpAnswer open(const HttpCall &C);
+  HttpAnswer frame(const HttpCall &C);
+  HttpAnswer pixel(const HttpCall &C);
 };
 
-void Server::Parts::setUp() {
-  // SO_REUSEPORT, which the library sets else, would let two servers share a
-  // port.
-  Http.set_socket_options([](auto Socket) {
-    const int Yes = 1;
-    setsockopt(Socket, SOL_SOCKET, SO_REUSEADDR, &Yes, sizeof(Yes));
-  });
-  Http.set_tcp_nodelay(true);
-  Http.set_default_headers(Always);
-  Http.set_payload_max_length(LargestScene);
-  // A body that is refused is not read, and may not become the next request.
-  Http.set_keep_alive_max_count(1);
-  Http.set_pre_routing_handler(
-      [this](const httplib::Request &From, httplib::Response &To) {
-        const auto Why = Door.refuse(
-            {From.method == "POST", From.method == "GET" && isPage(From.path),
-             From.get_header_value("Host"), From.get_header_value("Origin"),
-             From.get_header_value(TokenHeader)});
-        if (!Why)
-          return httplib::Server::HandlerResponse::Unhandled;
-        refuse(To, 403, *Why);
-        return httplib::Server::HandlerResponse::Handled;
+std::variant<HttpAnswer, HttpWork> Server::Parts::admit(const HttpHead &R) {
+  const auto Field = [&](const char *Name) {
+    const auto Value = R[Name];
+    return std::string(Value.data(), Value.size());
+  };
+  const std::string_view Path = Target(viewOf(R.target())).Path;
+  const auto Page = std::ranges::find(pageFiles(), Path, &PageFile::Path);
+  const bool IsPage =
+      R.method() == http::verb::get && Page != pageFiles().end();
+  if (const auto Why =
+          Door.refuse({R.method() == http::verb::post, IsPage, Field("Host"),
+                       Field("Origin"), Field(TokenHeader)}))
+    return refusal(403, *Why);
+  if (IsPage)
+    return HttpAnswer{200, std::string(Page->Type), std::string(Page->Text)};
+
+  struct Route {
+    http::verb Method;
+    std::string_view Path;
+    uint64_t MostBody;
+    HttpAnswer (Parts::*Answer)(const HttpCall &);
+  };
+  constexpr std::array Routes{
+      Route{http::verb::get, "/scene", 0, &Parts::describe},
+      Route{http::verb::post, "/scene", LargestScene, &Parts::open},
+      Route{http::verb::post, "/frame", LargestViewRequest, &Parts::frame},
+      Route{http::verb::post, "/pixel", LargestViewRequest, &Parts::pixel}};
+  const auto *const Found =
+      std::ranges::find_if(Routes, [&](const Route &Each) {
+        return Each.Method == R.method() && Each.Path == Path;
       });
-  Http.set_error_handler(
-      [](const httplib::Request & /*From*/, httplib::Response &To) {
-        if (!To.body.empty())
-          return;
-        refuse(To, To.status,
-               To.status == 413
-                   ? fmt::format("the scene is too large, expected at most "
-                                 "{} MiB",
-                                 LargestScene >> 20)
-                   : "there is nothing of this name");
-      });
-  Http.set_exception_handler([](const httplib::Request & /*From*/,
-                                httplib::Response &To,
-                                std::exception_ptr Thrown) {
-    try {
-      std::rethrow_exception(std::move(Thrown));
-    } catch (const std::bad_alloc &) {
-      refuse(To, 500, "memory ran out");
-    } catch (const std::exception &E) {
-      refuse(To, 500, fmt::format("a bug of ours: {}", escaped(E.what())));
-    }
-  });
-  addRoutes();
+  if (Found == Routes.end())
+    return refusal(404, "there is nothing of this name");
+  return HttpWork{
+      Field(PageHeader), Found->MostBody,
+      [this, Do = Found->Answer](const HttpCall &C) { return (this->*Do)(C); }};
 }
 
-void Server::Parts::addRoutes() {
-  for (const PageFile &F : pageFiles())
-    Http.Get(std::string(F.Path), [&F](const httplib::Request & /*From*/,
-                                       httplib::Response &To) {
-      To.set_content(F.Text.data(), F.Text.size(), std::string(F.Type));
-    });
-  Http.Get("/scene",
-           [this](const httplib::Request & /*From*/, httplib::Response &To) {
-             answerJson(To, Shown.describe());
-           });
-  Http.Post("/scene",
-            [this](const httplib::Request &From, httplib::Response &To) {
-              const std::string Name =
-                  asFileName(printable(From.get_param_value("name")));
-              if (auto Done = Shown.replace(Name, From.body); !Done)
-                return refuse(To, Done.error());
-              answerJson(To, Shown.describe());
-            });
-  Http.Post("/frame",
-            [this](const httplib::Request &From, httplib::Response &To) {
-              const auto Asked = parseViewRequest(From.body);
-              if (!Asked)
-                return refuse(To, Asked.error());
-              const auto Answer = Shown.frame(*Asked);
-              if (!Answer)
-                return refuse(To, Answer.error());
-              To.set_content(packed(*Answer), "application/octet-stream");
-            });
-  Http.Post("/pixel",
-            [this](const httplib::Request &From, httplib::Response &To) {
-              const auto Asked = parseViewRequest(From.body);
-              if (!Asked)
-                return refuse(To, Asked.error());
-              answerJson(To, Shown.pixel(*Asked));
-            });
+HttpAnswer Server::Parts::describe(const HttpCall & /*C*/) {
+  return json(Shown.describe());
+}
+
+HttpAnswer Server::Parts::open(const HttpCall &C) {
+  if (auto Done = Shown.replace(nameOfScene(C.Request), C.Request.body());
+      !Done)
+    return refusalOf(Done.error());
+  return json(Shown.describe());
+}
+
+HttpAnswer Server::Parts::frame(const HttpCall &C) {
+  const auto Asked = parseViewRequest(C.Request.body());
+  if (!Asked)
+    return refusalOf(Asked.error());
+  const auto Page = C.Request[PageHeader];
+  const auto Answer =
+      Shown.frame(*Asked, {std::string(Page.data(), Page.size()), C.HasLeft});
+  if (!Answer)
+    return refusalOf(Answer.error());
+  return {200, "application/octet-stream", packed(*Answer)};
+}
+
+HttpAnswer Server::Parts::pixel(const HttpCall &C) {
+  const auto Asked = parseViewRequest(C.Request.body());
+  if (!Asked)
+    return refusalOf(Asked.error());
+  return json(Shown.pixel(*Asked));
 }
 
 Server::Server(std::unique_ptr<Parts> P) : All(std::move(P)) {}
@@ -176,39 +196,28 @@ Expected<std::unique_ptr<Server>> Server::listen(int Port, Session &Shown) {
   if (!Door)
     return Door.error();
   auto P = std::make_unique<Parts>(std::move(*Door), Shown);
-  P->setUp();
-  P->Port = Port == 0 ? P->Http.bind_to_any_port(Loopback)
-            : P->Http.bind_to_port(Loopback, Port) ? Port
-                                                   : -1;
-  if (P->Port <= 0)
-    return Error{"",
-                 fmt::format("--port {}: is in use or not allowed, expected a "
-                             "free one, or 0 for any",
-                             Port),
-                 ExitCode::Usage};
-  P->Door.listensOn(P->Port);
+  HttpLimits Most;
+  // One scene is sent at a time.
+  Most.BodyBytes = LargestScene + Most.Requests * LargestViewRequest;
+  auto Http = HttpServer::listen(
+      Port, Always,
+      [Own = P.get()](const HttpHead &R) { return Own->admit(R); }, refusal,
+      Most);
+  if (!Http)
+    return Http.error();
+  P->Http = std::move(*Http);
+  P->Door.listensOn(P->Http->port());
   return std::unique_ptr<Server>(new Server(std::move(P)));
 }
 
 std::string Server::address() const {
   // Browsers keep what is behind the # to themselves.
-  return fmt::format("http://{}:{}/#{}", Loopback, All->Port,
+  return fmt::format("http://127.0.0.1:{}/#{}", All->Http->port(),
                      All->Door.token());
 }
 
 void Server::serve(const std::function<void()> &Announce) {
-  std::atomic<bool> Ended = false;
-  const Interrupt OnSignal([&] {
-    All->Shown.giveUp();
-    // Until it has begun, the library does not hear it.
-    while (!Ended) {
-      All->Http.stop();
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-  });
-  Announce();
-  All->Http.listen_after_bind();
-  Ended = true;
+  All->Http->serve(Announce, [this] { All->Shown.giveUp(); });
 }
 
 } // namespace vorion::splat

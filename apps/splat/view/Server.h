@@ -1,7 +1,6 @@
 /// The server of `splat view`, for this computer alone.
 #pragma once
 
-#include "view/Guard.h"
 #include "view/Session.h"
 
 #include <functional>
@@ -20,8 +19,8 @@ public:
   /// With the token.
   std::string address() const;
 
-  /// Answers until SIGINT or SIGTERM, which count from before the call of \p
-  /// Announce on; a second one ends the process at once.
+  /// Answers until SIGHUP, SIGINT or SIGTERM, which count from before the call
+  /// of \p Announce on; a second one ends the process at once.
   void serve(const std::function<void()> &Announce);
 
 private:

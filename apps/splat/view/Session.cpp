@@ -284,8 +284,11 @@ Session::drawn(const ViewRequest &R,
   return Kept.front();
 }
 
-Expected<ViewAnswer> Session::frame(const ViewRequest &R) {
-  const uint64_t Own = ++Newest;
+Expected<ViewAnswer> Session::frame(const ViewRequest &R, const Asker &From) {
+  const PageCalls::Call Own = Calls.begin(From.Page);
+  const auto GiveUp = [&] {
+    return Ending || !Own.isNewest() || From.HasLeft();
+  };
   const auto S = scene();
   const auto D = drawn(R, S);
   if (!D)
@@ -294,8 +297,7 @@ Expected<ViewAnswer> Session::frame(const ViewRequest &R) {
   ViewAnswer A{factsOf(**D), ""};
   Painted P;
   if (R.Clock) {
-    const auto Time =
-        Clock.measure(*S, R, [this, Own] { return Own != Newest; });
+    const auto Time = Clock.measure(*S, R, GiveUp);
     if (!Time)
       return Time.error();
     A.Facts.update(timeOf(**Time));
@@ -303,7 +305,7 @@ Expected<ViewAnswer> Session::frame(const ViewRequest &R) {
       P = paintHeat((*Time)->Tiles, *Heat, R.View.Width, R.View.Height);
   }
   if (R.Compare) {
-    const auto Judged = Reference.picture(S, R.View);
+    const auto Judged = Reference.picture(S, R.View, GiveUp);
     if (!Judged)
       return Judged.error();
     A.Facts["error"] = errorOf(Result.Picture, **Judged);

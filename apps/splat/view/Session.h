@@ -2,7 +2,9 @@
 #pragma once
 
 #include "render/Renderer.h"
+#include "view/FairLock.h"
 #include "view/Judge.h"
+#include "view/PageCalls.h"
 #include "view/Request.h"
 #include "view/ShownScene.h"
 #include "view/Stopwatch.h"
@@ -52,11 +54,13 @@ public:
   std::string describe() const;
 
   /// Draws what \p R asks for. What takes long, which is the clock and the
-  /// reference, gives way to a call that comes later, which is an error.
-  Expected<ViewAnswer> frame(const ViewRequest &R);
+  /// reference, is done for one call after the other, in the order in which
+  /// they came. It ends without an answer, which is an error, if \p From has
+  /// left or calls again.
+  Expected<ViewAnswer> frame(const ViewRequest &R, const Asker &From);
 
-  /// Ends what takes long, as a later call would.
-  void giveUp() { ++Newest; }
+  /// Ends what takes long, now and later.
+  void giveUp() { Ending = true; }
 
   /// What a pixel is made of, as JSON.
   std::string pixel(const ViewRequest &R);
@@ -88,8 +92,9 @@ private:
   mutable std::mutex SceneLock;
   std::shared_ptr<const ShownScene> Shown; ///< by this lock
 
-  std::atomic<uint64_t> Newest = 0; ///< of the calls of frame()
-  std::mutex DeviceLock;
+  PageCalls Calls; ///< of frame()
+  std::atomic<bool> Ending = false;
+  FairLock DeviceLock;
   /// \name By this lock
   /// @{
   ProgramCache Programs;

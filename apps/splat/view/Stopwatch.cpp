@@ -47,7 +47,9 @@ std::string Stopwatch::sceneFile(uint64_t Number) const {
 Expected<std::shared_ptr<const MachineTime>>
 Stopwatch::measure(const ShownScene &S, const ViewRequest &R,
                    const std::function<bool()> &GiveUp) {
-  const std::lock_guard Held(Lock);
+  if (!Lock.lockUnless(GiveUp))
+    return superseded();
+  const std::lock_guard Held(Lock, std::adopt_lock);
   const auto Known = std::ranges::find_if(Last, [&](const Kept &K) {
     return K.Scene == S.Number && K.View == R.View && K.Chosen == R.Chosen;
   });

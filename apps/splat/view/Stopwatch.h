@@ -5,16 +5,15 @@
 
 #include "device/DeviceOptions.h"
 #include "device/TileWork.h"
+#include "view/FairLock.h"
 #include "view/Request.h"
 #include "view/ShownScene.h"
 #include "vorion/support/TemporaryFolder.h"
 
-#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,7 +58,7 @@ private:
   TemporaryFolder Folder;
   std::vector<std::string> DeviceWords;
   DeviceOptions Machine;
-  std::mutex Lock;
+  FairLock Lock;
   std::deque<Kept> Last; ///< by the lock; newest first
 };
 

@@ -6,66 +6,29 @@ usage: view.py SCENE CAMERAS SOG LENSES FOLDER
 LENSES is a folder of distorted.py.
 """
 
-import contextlib
-import http.client
 import json
 import math
 import os
-import signal
-import struct
 import subprocess
 import sys
-import urllib.parse
 import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
 import png_file
+import viewer as server
 from browser import Browser
+from viewer import ask, frame, refused
 
 SCENE, CAMERAS, SOG, LENSES, FOLDER = sys.argv[1:]
 SIZE = (96, 64)
 
 
-@contextlib.contextmanager
 def viewer(*options, cameras=CAMERAS, size=SIZE):
-    """Gives a running viewer's address; it must end well at Ctrl-C."""
-    process = subprocess.Popen(["splat", "view", SCENE, "--cameras", cameras, "--size", f"{size[0]}x{size[1]}", *options],
-                               stdout=subprocess.PIPE, text=True)
-    try:
-        said = process.stdout.readline()
-        assert said.startswith("splat view: http://127.0.0.1:"), said
-        yield urllib.parse.urlsplit(said.split()[-1])
-        process.send_signal(signal.SIGINT)
-        assert process.wait(30) == 0, process.returncode
-    finally:
-        process.kill()
-        process.wait()
-
-
-def ask(at, method, path, body=None, token=True, **headers):
-    """Status and body of the answer."""
-    connection = http.client.HTTPConnection("127.0.0.1", at.port, timeout=60)
-    sent = {"Host": at.netloc, "Origin": f"http://{at.netloc}"} | ({"X-Splat-Token": at.fragment} if token else {}) | headers
-    connection.putrequest(method, path, skip_host=True)
-    for name, value in sent.items():
-        if value is not None:
-            connection.putheader(name, value)
-    if body is not None:
-        connection.putheader("Content-Length", str(len(body)))
-    connection.endheaders(body)
-    answer = connection.getresponse()
-    return answer.status, answer.read(), answer.headers
-
-
-def refused(answer, status):
-    assert answer[0] == status, answer
-    assert "\n" not in json.loads(answer[1])["error"]
+    return server.viewer(SCENE, "--cameras", cameras, "--size", f"{size[0]}x{size[1]}", *options)
 
 
 def camera():
-    with open(CAMERAS, encoding="utf-8") as f:
-        view = json.load(f)[0]
-    return {k: view[k] for k in ("width", "height", "position", "rotation", "fx", "fy")}
+    return server.camera(CAMERAS)
 
 
 def check_door(at):
@@ -87,12 +50,13 @@ def check_door(at):
     assert "frame-ancestors 'none'" in headers["Content-Security-Policy"] and headers["Access-Control-Allow-Origin"] is None
     refused(ask(at, "GET", "/none"), 404)
     refused(ask(at, "POST", "/frame", b"{"), 400)
-    refused(ask(at, "POST", "/frame", b"[" * 100000), 400)
+    refused(ask(at, "POST", "/frame", b"[" * 60000), 400)
     refused(ask(at, "POST", "/frame", json.dumps({"camera": camera() | {"width": 100000}}).encode()), 400)
     refused(ask(at, "POST", "/scene?name=x.ply", b"no scene"), 400)
     answer = ask(at, "POST", "/scene?name=x.ply", **{"Content-Length": str(2**30 + 1)})
     refused(answer, 413)
-    assert json.loads(answer[1])["error"] == "the scene is too large, expected at most 1024 MiB", answer
+    assert json.loads(answer[1])["error"] == f"the request's body is too large, expected at most {2**30} bytes", answer
+    refused(ask(at, "POST", "/frame", **{"Content-Length": str(2**16 + 1)}), 413)
     print("the server keeps its door")
 
 
@@ -112,16 +76,6 @@ def is_picture(pixels, size, picture):
     subprocess.run(["splat", "compare", ours, picture, "--json", report], check=True, stdout=subprocess.DEVNULL)
     with open(report, encoding="utf-8") as f:
         return json.load(f)["equal"]
-
-
-def frame(at, asked):
-    """Facts and pixels of a frame."""
-    status, answer, _ = ask(at, "POST", "/frame", json.dumps(asked).encode())
-    assert status == 200, answer
-    size, = struct.unpack("<I", answer[:4])
-    facts, pixels = json.loads(answer[4:4 + size]), answer[4 + size:]
-    assert len(pixels) == 4 * facts["width"] * facts["height"]
-    return facts, pixels
 
 
 def check_frame(at):

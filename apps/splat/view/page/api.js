@@ -1,11 +1,13 @@
 // Talks to the server. The token stands behind the # of the page's address, which browsers send to nobody.
 
 const token = location.hash.slice(1);
+// Of this page alone: its newer requests take the place of its older ones.
+const page = crypto.randomUUID();
 
 async function ask(path, options = {}) {
   let answer;
   try {
-    answer = await fetch(path, { ...options, headers: { 'X-Splat-Token': token, ...options.headers } });
+    answer = await fetch(path, { ...options, headers: { 'X-Splat-Token': token, 'X-Splat-Page': page, ...options.headers } });
   } catch (failure) {
     if (failure.name === 'AbortError') throw failure;
     throw new Error('splat view does not answer: it has ended, or the computer is busy');
