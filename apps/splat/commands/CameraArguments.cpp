@@ -40,17 +40,22 @@ bool asksForAll(const CameraArguments &A) {
   return A.Views.empty() || (A.Views.size() == 1 && A.Views.front() == "all");
 }
 
+/// What is up, if the options or a file's cameras say so.
+std::optional<Vector> givenUp(const CameraArguments &A,
+                              const std::vector<Camera> &Cameras) {
+  if (const auto Up = parseUp(A.Up))
+    return Up;
+  return A.File.empty() ? std::nullopt : upOf(Cameras);
+}
+
 /// What the cameras go around, and about which axis.
 std::pair<Vector, Vector> pivotOf(const CameraArguments &A,
                                   const std::vector<Camera> &Cameras,
                                   const Scene &S) {
-  std::optional<Vector> Up = parseUp(A.Up);
+  const std::optional<Vector> Up = givenUp(A, Cameras);
   std::optional<Vector> Centre;
-  if (!A.File.empty()) {
-    if (!Up)
-      Up = upOf(Cameras);
+  if (!A.File.empty())
     Centre = lookedAt(Cameras);
-  }
   if (!Up || !Centre) {
     const SceneFocus F = focusOf(S, Up);
     return {Centre.value_or(F.Centre), F.Up};
@@ -90,9 +95,10 @@ void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
         ->excludes("--orbit");
   }
   App.add_option("--up", A.Up,
-                 "What is up in the scene, for --orbit and for a view that is "
-                 "found (default: as the cameras have it, or by the scene's "
-                 "flat Gaussians)")
+                 fmt::format("What is up in the scene, for {} and for a view "
+                             "that is found (default: as the cameras have it, "
+                             "or by the scene's flat Gaussians)",
+                             Several ? "--orbit" : "turning around it"))
       ->check(isOneOf({"x", "-x", "y", "-y", "z", "-z"}));
 }
 
@@ -135,6 +141,12 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
     return usage("--frames goes through several views, expected --cameras "
                  "with at least two");
   return alongPath(Keys, A.Frames);
+}
+
+Vector upOf(const CameraArguments &A, const std::vector<Camera> &Cameras,
+            const Scene &S) {
+  const auto Given = givenUp(A, Cameras);
+  return Given ? *Given : focusOf(S).Up;
 }
 
 Expected<std::vector<Camera>> chooseCameras(const CameraArguments &A,

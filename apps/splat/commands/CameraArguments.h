@@ -1,6 +1,7 @@
 /// What subcommands that draw take about cameras.
 #pragma once
 
+#include "cameras/Vector.h"
 #include "io/Cameras.h"
 #include "scene/Scene.h"
 
@@ -42,5 +43,10 @@ Expected<std::vector<Camera>> chooseCameras(const CameraArguments &A,
 /// --view says where a motion starts, or which views it goes through.
 Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
                                          const Scene &S);
+
+/// What is up in \p S, a unit vector: as --up says, else as \p Cameras have it
+/// if they are of a file, else by the scene's flat Gaussians.
+Vector upOf(const CameraArguments &A, const std::vector<Camera> &Cameras,
+            const Scene &S);
 
 } // namespace vorion::splat

@@ -79,11 +79,12 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   // Who looks around does so at one moment.
   for (Camera &C : S.Cameras)
     C.Optics.Shutter.reset();
+  const Vector Up = upOf(A.Cameras, S.Cameras, File->Gaussians);
   const std::filesystem::path Path(A.Scene.Path);
   std::string Name = printable(
       (Path.has_filename() ? Path : Path.parent_path()).filename().string());
   ShownScene First{std::move(Name), A.Scene.Path, wordsOf(A.Scene),
-                   std::move(*File)};
+                   std::move(*File), Up};
   const auto Shown = Session::open(std::move(S), std::move(First));
   if (!Shown)
     return Shown.error();

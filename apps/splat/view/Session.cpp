@@ -1,5 +1,6 @@
 #include "view/Session.h"
 
+#include "cameras/GoodView.h"
 #include "device/ClockedMachine.h"
 #include "effects/Registry.h"
 #include "io/CameraLens.h"
@@ -159,7 +160,8 @@ Expected<Success> Session::replace(std::string Name,
   if (auto Written = writeFileAtomically(Path, Content); !Written)
     return Written;
   const std::string Before = Clock.sceneFile(scene()->Number);
-  show({std::move(Name), Path, Settings.ReadingWords, std::move(*File)});
+  const Vector Up = focusOf(File->Gaussians).Up;
+  show({std::move(Name), Path, Settings.ReadingWords, std::move(*File), Up});
   std::error_code Ignored; // there is none of the first scene
   std::filesystem::remove(Before, Ignored);
   return Success{};
@@ -196,6 +198,7 @@ std::string Session::describe() const {
                        {"gaussians", Gaussians.size()},
                        {"sh_degree", Gaussians.ShDegree},
                        {"box", Box},
+                       {"up", S->Up},
                        {"device", Dev.name()},
                        {"width", Settings.Width},
                        {"height", Settings.Height},

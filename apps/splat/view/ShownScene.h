@@ -1,6 +1,7 @@
 /// A scene that is open in `splat view`.
 #pragma once
 
+#include "cameras/Vector.h"
 #include "scene/SceneFile.h"
 
 #include <cstddef>
@@ -19,6 +20,7 @@ struct ShownScene {
   std::string Path;
   std::vector<std::string> Words;
   SceneFile File;
+  Vector Up{};         ///< of the scene, a unit vector
   uint64_t Number = 0; ///< from 1: of the scenes that were opened
 };
 

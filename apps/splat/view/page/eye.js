@@ -12,7 +12,7 @@ const turned = (a, axis, angle) => {
 };
 
 export class Eye {
-  // `camera` of the scene; `box`: two corners of what is in it, or nothing.
+  // `camera` of the scene; `box`: two corners of what is in it, or nothing; `up`: what is up in it, a unit vector.
   constructor(camera, box, size, up) {
     const column = k => camera.rotation.map(row => row[k]);
     this.optics = camera.lens;
@@ -28,14 +28,16 @@ export class Eye {
     this.distance = ahead > 0 ? ahead : this.radius;
   }
 
-  // A camera before the middle of `box`, at which all of it is in the picture.
-  static ahead(box, { width, height }) {
+  // A level camera before the middle of `box`, at which all of it is in the picture.
+  static ahead(box, { width, height }, up) {
     const middle = box.length ? scale(add(box[0], box[1]), 0.5) : [0, 0, 0];
     const radius = box.length ? Math.hypot(...add(box[1], scale(box[0], -1))) / 2 : 1;
     const focal = 0.87 * width;
+    const down = scale(up, -1), right = unit(cross(down, Math.abs(up[2]) < 0.7 ? [0, 0, 1] : [0, 1, 0]));
+    const forward = cross(right, down);
     return {
-      name: 'whole scene', width, height, position: add(middle, [0, 0, -radius * focal / (height / 2)]),
-      rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], fx: focal, fy: focal, cx: width / 2, cy: height / 2
+      name: 'whole scene', width, height, position: add(middle, scale(forward, -radius * focal / (height / 2))),
+      rotation: [0, 1, 2].map(i => [right[i], down[i], forward[i]]), fx: focal, fy: focal, cx: width / 2, cy: height / 2
     };
   }
 
@@ -52,7 +54,15 @@ export class Eye {
     this.forward = unit(this.forward);
     this.right = unit(cross(this.down, this.forward));
     this.down = cross(this.forward, this.right);
-    if (aboutTarget) this.position = add(target, scale(this.forward, -this.distance));
+    if (!aboutTarget) return;
+    this.level(Math.hypot(right, down));
+    this.position = add(target, scale(this.forward, -this.distance));
+  }
+
+  // Turns the horizon towards the level by at most `most` radians: without a jump, where a photograph was not level.
+  level(most) {
+    const roll = Math.atan2(dot(this.right, this.up), -dot(this.down, this.up));
+    for (const key of ['right', 'down']) this[key] = turned(this[key], this.forward, Math.max(-most, Math.min(most, roll)));
   }
 
   // In shares of the distance to what is looked at.
@@ -78,10 +88,4 @@ export class Eye {
       ...(this.optics && (throughLens || !this.isChoice) ? { lens: this.optics } : {})
     };
   }
-}
-
-// What most cameras have above them; cameras of trainers have y down.
-export function upOf(cameras) {
-  const sum = cameras.reduce((s, c) => add(s, c.rotation.map(row => -row[1])), [0, 0, 0]);
-  return Math.hypot(...sum) > 0.1 * cameras.length ? unit(sum) : [0, -1, 0];
 }

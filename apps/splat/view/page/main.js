@@ -3,7 +3,7 @@ import { openScene, readFrame, readPixel, readScene } from './api.js';
 import { keysHeld, takeKeys, takePointer } from './controls.js';
 import { takeDrops } from './drop.js';
 import { byId, element } from './element.js';
-import { Eye, upOf } from './eye.js';
+import { Eye } from './eye.js';
 import { settingName, showKnobs } from './knobs.js';
 import { showFacts, showLegend, showPixel } from './panels.js';
 
@@ -148,14 +148,14 @@ async function keepUp() {
 }
 
 function choose(camera) {
-  eye = new Eye(camera, scene.box, { width: scene.width, height: scene.height }, upOf(scene.cameras));
+  eye = new Eye(camera, scene.box, { width: scene.width, height: scene.height }, scene.up);
   byId('lens').disabled = !eye.isChoice;
   changed();
 }
 
 function setUp(described) {
   scene = described;
-  if (!scene.cameras.length) scene.cameras = [Eye.ahead(scene.box, scene)];
+  if (!scene.cameras.length) scene.cameras = [Eye.ahead(scene.box, scene, scene.up)];
   byId('name').textContent = document.title = scene.name;
   byId('about').textContent = `${scene.gaussians.toLocaleString('en')} Gaussians, SH degree ${scene.sh_degree}, ${scene.format}; ${scene.width}x${scene.height} on ${scene.device}`;
   byId('camera').replaceChildren(...scene.cameras.map((c, n) => element('option', { value: n }, c.name)),
