@@ -11,6 +11,7 @@
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/SceneArguments.h"
+#include "effects/Registry.h"
 
 #include "io/Cameras.h"
 #include "page/TimePage.h"
@@ -354,6 +355,14 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
                             A.Layers.needLists(),
                             Cameras->size()};
   RenderPlan Plan = requestedPlan(A, Inputs);
+  if (Map && Plan.Effects.done(effects::Windows)) {
+    if (!A.HeatMap.empty())
+      return Error{"",
+                   "--heat-map shows tiles by their places in the picture, "
+                   "which windows do not have: expected a narrower one",
+                   ExitCode::Usage};
+    Map.reset();
+  }
 
   const auto Open = [&] {
     auto Opened = openDevice(A.Device, A.Options.Blending, Machine);

@@ -10,6 +10,9 @@ namespace vorion::splat {
 namespace {
 
 Finding detect(const EffectInputs &In) {
+  if (effects::Needles.Detect(In).Needed)
+    return {false, "the effect needles needs quaternions as they are stored",
+            false};
   return {In.Views > 1, fmt::format("{} {} of the scene", In.Views,
                                     In.Views == 1 ? "picture" : "pictures")};
 }

@@ -1,10 +1,17 @@
-// A window of a larger picture, beside its principal point (docs/cameras.md).
+// Places that fp32 cannot measure from the axis: in a window beside the
+// principal point, and through a long lens (docs/cameras.md).
 
 #include "effects/Registry.h"
+
+#include <fmt/format.h>
 
 namespace vorion::splat {
 
 namespace {
+
+/// In the camera's axes fp32 has a step of 2^-24 of a point's distance, and the
+/// focal length makes it this many pixels: beyond it, 2^-11 and more.
+constexpr double Longest = 8192;
 
 Finding detect(const EffectInputs &In) {
   if (In.Options.Optics == LensModel::Equirectangular ||
@@ -13,10 +20,17 @@ Finding detect(const EffectInputs &In) {
             "not for full spheres, the unscented transform and rolling "
             "shutters",
             false};
-  return {In.Facts.IsCrop,
-          In.Facts.IsCrop ? "the principal point is outside the picture"
-                          : "the principal point is in the picture",
-          In.Facts.IsCrop};
+  const ViewFacts &F = In.Facts;
+  const bool IsParallel = In.Options.Optics == LensModel::Orthographic;
+  const double Length = IsParallel ? F.FocalLength * F.Farthest : F.FocalLength;
+  const bool IsLong = Length > Longest;
+  return {F.IsCrop || IsLong,
+          F.IsCrop ? "the principal point is outside the picture"
+                   : fmt::format("the principal point is in the picture; {} of "
+                                 "{:.6g} pixels, more than {} need it",
+                                 IsParallel ? "a distance" : "a focal length",
+                                 Length, Longest),
+          F.IsCrop || IsLong};
 }
 
 } // namespace

@@ -32,8 +32,7 @@ protected:
   EffectPlan plan(const std::string &Request = "auto") const {
     const auto R = parseEffectRequest(Request);
     EXPECT_TRUE(R);
-    return {*R,
-            {S, O, factsOf(S, makeView(C, O), nearLimit(O.Convention)), false}};
+    return {*R, {S, O, factsOf(S, makeView(C, O), O), false}};
   }
   bool needed(const Effect &E) const { return plan().of(E).Detected.Needed; }
 
@@ -158,13 +157,77 @@ TEST_F(Effects, ACropIsAPrincipalPointOutsideThePicture) {
   }
 }
 
+TEST_F(Effects, ALongLensMeasuresFromTheRay) {
+  C.Fx = 8192;
+  EXPECT_FALSE(needed(effects::Crop));
+  C.Fy = 8193;
+  EXPECT_TRUE(needed(effects::Crop));
+  O.Optics = LensModel::Fisheye;
+  EXPECT_TRUE(needed(effects::Crop));
+  // Of parallel rays it is the distance in pixels: that of 2 units, then more.
+  O.Optics = LensModel::Orthographic;
+  C.Fx = C.Fy = 4096;
+  EXPECT_FALSE(needed(effects::Crop));
+  S.Means[0] = 2.01F;
+  EXPECT_TRUE(needed(effects::Crop));
+  O.Optics = LensModel::Pinhole;
+  EXPECT_FALSE(needed(effects::Crop));
+}
+
+TEST_F(Effects, AWidePictureHasWindows) {
+  C.Width = 4096;
+  EXPECT_FALSE(needed(effects::Windows));
+  for (int *Side : {&C.Width, &C.Height}) {
+    C = Camera::ahead(64, 48, 50);
+    *Side = 4097;
+    EXPECT_EQ(plan("flags").of(effects::Windows).Code, EffectCode::Compiled);
+    O.Optics = LensModel::Equirectangular;
+    EXPECT_TRUE(needed(effects::Windows));
+    O.Optics = LensModel::Pinhole;
+    O.Through = Spread::Unscented;
+    EXPECT_FALSE(needed(effects::Windows));
+    O.Through = Spread::Jacobian;
+  }
+}
+
+// Of 10,000 px: one that points at the camera, and others.
+TEST_F(Effects, ANeedleCountsWhereItPointsAtTheCamera) {
+  const auto Log = [](double V) { return static_cast<float>(std::log(V)); };
+  for (std::size_t I = 0; I < S.size(); ++I) {
+    S.Quats[4 * I] = 1;
+    for (int K = 0; K < 3; ++K)
+      S.LogScales[3 * I + static_cast<std::size_t>(K)] = Log(0.01);
+  }
+  EXPECT_FALSE(needed(effects::Needles));
+  S.LogScales[5] = Log(400); // along z, in the middle of the picture
+  EXPECT_TRUE(needed(effects::Needles));
+  EXPECT_EQ(plan().of(effects::Needles).Detected.Figure,
+            "1 of 3 Gaussians are needles that point at the camera");
+  // Activation would round its quaternion.
+  const auto R = parseEffectRequest("auto");
+  EffectInputs Several{S, O, factsOf(S, makeView(C, O), O), false};
+  Several.Views = 2;
+  EXPECT_FALSE(EffectPlan(*R, Several).done(effects::ActivatedScene));
+  // Behind the camera, and beside the picture.
+  S.Means[5] = -2;
+  EXPECT_FALSE(needed(effects::Needles));
+  S.Means[5] = 2;
+  S.Means[3] = 9;
+  EXPECT_FALSE(needed(effects::Needles));
+  S.Means[3] = 0;
+  // Across the picture a record has more to lose; and a large ball is no
+  // needle.
+  std::swap(S.LogScales[3], S.LogScales[5]);
+  EXPECT_FALSE(needed(effects::Needles));
+  S.LogScales[4] = S.LogScales[5] = S.LogScales[3];
+  EXPECT_FALSE(needed(effects::Needles));
+}
+
 // By pinholes in the picture alone, and where a lens has no slopes by all that
 // is in front.
 TEST_F(Effects, TheNearPlanesShareIsOfWhatTheViewShows) {
   S.Means = {0, 0, 0.1F, 0, 0, 2, 9, 0, 0.1F};
-  const auto Facts = [&] {
-    return factsOf(S, makeView(C, O), O.nearLimit(), O.byDistance());
-  };
+  const auto Facts = [&] { return factsOf(S, makeView(C, O), O); };
   EXPECT_EQ(Facts().InView, 2U);
   EXPECT_EQ(Facts().BeforeNear, 1U);
   S.Means[2] = -0.1F; // behind
@@ -181,9 +244,7 @@ TEST_F(Effects, TheNearPlanesShareIsOfWhatTheViewShows) {
 }
 
 TEST_F(Effects, OfTwoViewsEitherCallsForAnEffect) {
-  const auto Facts = [&] {
-    return factsOf(S, makeView(C, O), nearLimit(O.Convention));
-  };
+  const auto Facts = [&] { return factsOf(S, makeView(C, O), O); };
   const auto NeedsNearPlane = [&](const ViewFacts &F) {
     return effects::NearPlane.Detect({S, O, F, false}).Needed;
   };
@@ -318,7 +379,7 @@ TEST_F(Effects, DepthIsADistanceWhereTheLensSeesBehind) {
   S.Means[2] = -2; // behind the camera
   EXPECT_TRUE(needed(effects::NearPlane));
   O.Optics = LensModel::Fisheye;
-  const ViewFacts F = factsOf(S, makeView(C, O), O.nearLimit(), O.byDistance());
+  const ViewFacts F = factsOf(S, makeView(C, O), O);
   EXPECT_EQ(F.NearestDepth, 2);
 }
 

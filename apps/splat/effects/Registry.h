@@ -21,7 +21,9 @@ extern const Effect OpenCvLens, FisheyeLens, OrthographicLens,
     EquirectangularLens;
 extern const Effect Unscented;
 extern const Effect RollingShutter;
+extern const Effect Needles;
 extern const Effect Crop;
+extern const Effect Windows;
 extern const Effect RayOrder;
 /// @}
 

@@ -3,6 +3,7 @@
 #include "picture/View.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -88,6 +89,66 @@ void noteLogits(const Scene &S, ViewFacts &F) {
   }
 }
 
+/// Cosines of the angles between \p Ray and the axes that the quaternion \p Q
+/// turns.
+std::array<double, 3> cosinesOf(const float *Q,
+                                const std::array<double, 3> &Ray) {
+  const double W = Q[0], X = Q[1], Y = Q[2], Z = Q[3];
+  const double Rows[3][3] = {
+      {W * W + X * X - Y * Y - Z * Z, 2 * (X * Y + W * Z), 2 * (X * Z - W * Y)},
+      {2 * (X * Y - W * Z), W * W - X * X + Y * Y - Z * Z, 2 * (Y * Z + W * X)},
+      {2 * (X * Z + W * Y), 2 * (Y * Z - W * X),
+       W * W - X * X - Y * Y + Z * Z}};
+  const double Length =
+      (W * W + X * X + Y * Y + Z * Z) * std::hypot(Ray[0], Ray[1], Ray[2]);
+  std::array<double, 3> Cosines{};
+  for (std::size_t N = 0; N < 3; ++N)
+    for (std::size_t K = 0; K < 3; ++K)
+      Cosines[N] += Rows[N][K] * Ray[K] / Length;
+  return Cosines;
+}
+
+/// Whether Gaussian \p I, at depth \p Z, is a needle that points at the camera.
+/// Its long axis is rounded in fp32, and the picture has that rounding although
+/// it has little of the axis. It counts where the rounding is more of the
+/// footprint's shorter half axis than \c Least, and more than a record loses of
+/// such a footprint (docs/numerics.md).
+bool isPointing(const Scene &S, std::size_t I, const splat_view &V, double Z,
+                const RenderOptions &O) {
+  constexpr double Least = 0x1p-13, AxisRounding = 0x1p-23,
+                   RecordRounding = 0x1p-24;
+  const bool IsParallel = O.Optics == LensModel::Orthographic;
+  const double Pixels =
+      std::max(std::abs(double(V.focal[0])), std::abs(double(V.focal[1]))) /
+      (IsParallel ? 1 : Z);
+  std::array<double, 3> Squares{};
+  for (std::size_t K = 0; K < 3; ++K)
+    Squares[K] = std::exp(2 * double(S.LogScales[3 * I + K])) * Pixels * Pixels;
+  const double Rounded = AxisRounding * std::sqrt(std::ranges::max(Squares));
+  const double Added = double(O.Dilation);
+  if (!(Rounded > Least * std::sqrt(Added)))
+    return false;
+  std::array<double, 3> Ray{V.rotation[6], V.rotation[7], V.rotation[8]};
+  if (!IsParallel)
+    for (std::size_t K = 0; K < 3; ++K)
+      Ray[K] = double(S.Means[3 * I + K]) - V.position[K] - V.position_low[K];
+  const auto C = cosinesOf(&S.Quats[4 * I], Ray);
+  // Of the covariance across the ray: what its eigenvalues add up to, and their
+  // product (Cauchy-Binet).
+  double Sum = 0, Product = 0;
+  for (std::size_t N = 0; N < 3; ++N) {
+    const std::size_t Next = (N + 1) % 3;
+    Sum += Squares[N] * (1 - C[N] * C[N]);
+    Product += Squares[N] * Squares[Next] * C[3 - N - Next] * C[3 - N - Next];
+  }
+  const double Larger =
+      Sum / 2 + std::sqrt(std::max(0.0, Sum * Sum / 4 - Product));
+  const double Smaller = Larger > 0 ? Product / Larger : 0;
+  const double Thickness = std::sqrt(Smaller + Added);
+  return Rounded > Least * Thickness &&
+         Rounded * Thickness > RecordRounding * (Larger + Added);
+}
+
 /// The first Gaussian with a coefficient of \p Band that is not zero: a NaN is
 /// not, -0 is.
 std::size_t bandWitness(const Scene &S, int Band) {
@@ -106,11 +167,22 @@ std::size_t bandWitness(const Scene &S, int Band) {
 
 } // namespace
 
-ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit,
-                  bool ByDistance) {
+ViewFacts factsOfCamera(const splat_view &V) {
   ViewFacts F;
-  F.Reach = reachOf(S, V);
   F.IsCrop = isCrop(V);
+  for (int A = 0; A < 2; ++A) {
+    F.FocalLength = std::max(F.FocalLength, std::abs(double(V.focal[A])));
+    F.Side = std::max(F.Side, V.size[A]);
+  }
+  return F;
+}
+
+ViewFacts factsOf(const Scene &S, const splat_view &V,
+                  const RenderOptions &Options) {
+  const double NearLimit = Options.nearLimit();
+  const bool ByDistance = Options.byDistance();
+  ViewFacts F = factsOfCamera(V);
+  F.Reach = reachOf(S, V);
   noteLogits(S, F);
   for (int Band = 1; Band <= MaxShDegree; ++Band)
     F.BandWitness[static_cast<std::size_t>(Band - 1)] = bandWitness(S, Band);
@@ -126,6 +198,9 @@ ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit,
     const float *P = &S.Means[3 * I];
     const double Z = ByDistance ? distanceOf(V, P) : Depth(P);
     F.NearestDepth = std::min(F.NearestDepth, Z);
+    for (int K = 0; K < 3; ++K)
+      F.Farthest =
+          std::max(F.Farthest, magnitude(double(P[K]) - double(V.position[K])));
     bool Inside = true;
     const double Beside[2] = {Across[0](P), Across[1](P)};
     for (int A = 0; A < 2; ++A) {
@@ -138,6 +213,7 @@ ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit,
       F.BeyondField += Inside ? 0 : 1;
     if (Z > 0 && isShown(V, Beside, Z)) {
       ++F.InView;
+      F.Pointing += Z > NearLimit && isPointing(S, I, V, Z, Options) ? 1 : 0;
       F.BeforeNear += Z > NearLimit ? 0 : 1;
     }
   }
@@ -164,6 +240,10 @@ ViewFacts combined(const ViewFacts &A, const ViewFacts &B) {
   Both.BeyondField = std::max(A.BeyondField, B.BeyondField);
   Both.Reach = std::max(A.Reach, B.Reach);
   Both.IsCrop = A.IsCrop || B.IsCrop;
+  Both.FocalLength = std::max(A.FocalLength, B.FocalLength);
+  Both.Side = std::max(A.Side, B.Side);
+  Both.Pointing = std::max(A.Pointing, B.Pointing);
+  Both.Farthest = std::max(A.Farthest, B.Farthest);
   return Both;
 }
 

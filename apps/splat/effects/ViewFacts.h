@@ -2,6 +2,7 @@
 #pragma once
 
 #include "picture/Layout.h"
+#include "picture/Options.h"
 #include "scene/Scene.h"
 
 #include <array>
@@ -25,7 +26,16 @@ struct ViewFacts {
   std::size_t InView = 0, BeforeNear = 0;
   /// Of a mean's coordinates and the camera's, the largest magnitude.
   double Reach = 0;
-  bool IsCrop = false; ///< the principal point is outside the picture
+  /// \name Of the camera, and of several the largest
+  /// @{
+  bool IsCrop = false;    ///< the principal point is outside the picture
+  double FocalLength = 0; ///< px; of parallel rays, px a unit
+  unsigned Side = 0;      ///< of the picture, px
+  /// @}
+  /// Needles that point at the camera so nearly that fp32 rounds off what the
+  /// picture has of them.
+  std::size_t Pointing = 0;
+  double Farthest = 0; ///< from the camera, a mean, by its largest coordinate
   float LeastLogit = 0, MostLogit = 0; ///< of opacity
   /// Per band from 1: a Gaussian with a coefficient other than zero, the first
   /// there is, or \c NoWitness.
@@ -34,11 +44,12 @@ struct ViewFacts {
                                                    NoWitness};
 };
 
-/// \p NearLimit is the least depth that is drawn, by the distance from the
-/// camera if \p ByDistance. A NaN among the values gives
-/// figures by which everything is needed.
-ViewFacts factsOf(const Scene &S, const splat_view &View, double NearLimit,
-                  bool ByDistance = false);
+/// The facts that need no scene.
+ViewFacts factsOfCamera(const splat_view &View);
+
+/// A NaN among the values gives figures by which everything is needed.
+ViewFacts factsOf(const Scene &S, const splat_view &View,
+                  const RenderOptions &Options);
 
 /// Of two views of one scene: by these is needed what either needs.
 /// Of the near plane, they are those of the view of which it takes the larger

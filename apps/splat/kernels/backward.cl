@@ -37,7 +37,7 @@ static float cross2(float2 a, float2 b) {
 // own axes there as unit vectors, scales and opacity, and a unit quaternion.
 typedef struct {
   float3 place;
-  camera_axes axes;
+  camera_axes axes, seen; // seen: with what the picture has of them
   float4 activated, unit;
 } camera_gaussian;
 

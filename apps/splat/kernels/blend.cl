@@ -110,6 +110,8 @@ blend(__global const splat_gaussian *records, __global const uint *list,
   const uint2 range = ranges[get_group_id(1) * get_num_groups(0) +
                              get_group_id(0)];
 
+  const tile_place tile = place_of_tile(records, x0, y0);
+
   pixel_state own[OWN];
   for (uint k = 0; k < OWN; ++k) {
     const uint place = k * GROUP + item;
@@ -123,14 +125,14 @@ blend(__global const splat_gaussian *records, __global const uint *list,
     if (item == 0)
       live = 0;
     for (uint e = item; e < entries; e += GROUP)
-      batch[e] = records[GAUSSIAN(list[base + e])];
+      batch[e] = tile.records[GAUSSIAN(list[base + e])];
     barrier(CLK_LOCAL_MEM_FENCE);
 
     bool open = false;
     for (uint k = 0; k < OWN; ++k) {
       const uint place = k * GROUP + item;
-      const float px = (float)(x0 + PLACE_X(place)) + 0.5f;
-      const float py = (float)(y0 + PLACE_Y(place)) + 0.5f;
+      const float px = (float)(tile.x + PLACE_X(place)) + 0.5f;
+      const float py = (float)(tile.y + PLACE_Y(place)) + 0.5f;
       if (!own[k].done)
         own[k] = blend_batch(batch, entries, base - range.x, px, py, cutoff,
                              effects, own[k]);

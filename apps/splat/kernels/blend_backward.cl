@@ -43,6 +43,7 @@ blend_backward(__global const splat_gaussian *records,
   const uint y0 = get_group_id(1) * TILE_SIZE;
   const uint2 range =
       ranges[get_group_id(1) * get_num_groups(0) + get_group_id(0)];
+  const tile_place tile = place_of_tile(records, x0, y0);
   uint own_most = 0;
   for (uint k = 0; k < OWN; ++k) {
     const uint place = k * LANES + lane;
@@ -68,8 +69,8 @@ blend_backward(__global const splat_gaussian *records,
     for (uint entry = left; entry-- > first;) {
       float sum[ALL_SUMS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
                               0.0f, 0.0f, 0.0f, 0.0f};
-      through(records + (list[range.x + entry] & ~SPANS_TILES), entry, x0, y0,
-              gradient, state, entries, sum);
+      through(tile.records + (list[range.x + entry] & ~SPANS_TILES), entry,
+              tile.x, tile.y, gradient, state, entries, sum);
       for (uint k = 0; k < ALL_SUMS; ++k)
         parts[entry - first][k][lane] = sum[k];
     }

@@ -40,8 +40,9 @@ blend_backward_atomics(__global const splat_gaussian *records,
 #endif
 
   const uint item = get_local_id(0);
-  const uint x = get_group_id(0) * TILE_SIZE + item % TILE_SIZE;
-  const uint y = get_group_id(1) * TILE_SIZE + item / TILE_SIZE;
+  const uint x0 = get_group_id(0) * TILE_SIZE;
+  const uint y0 = get_group_id(1) * TILE_SIZE;
+  const uint x = x0 + item % TILE_SIZE, y = y0 + item / TILE_SIZE;
   const uint2 range =
       ranges[get_group_id(1) * get_num_groups(0) + get_group_id(0)];
   const bool inside = x < width && y < height;
@@ -49,13 +50,15 @@ blend_backward_atomics(__global const splat_gaussian *records,
   const uint own_last = inside ? last[i] : 0;
   gradient[item] = upstream[i];
   state[item] = (float2)(pixels[i].w, upstream[i].w);
-  const float px = (float)x + 0.5f, py = (float)y + 0.5f;
+  const tile_place tile = place_of_tile(records, x0, y0);
+  const float px = (float)(tile.x + item % TILE_SIZE) + 0.5f;
+  const float py = (float)(tile.y + item / TILE_SIZE) + 0.5f;
 
   for (uint left = range.y - range.x; left != 0;) {
     const uint entries = min((uint)BATCH, left);
     for (uint e = item; e < entries; e += TILE_PIXELS) {
       gaussians[e] = list[range.x + left - 1 - e] & ~SPANS_TILES;
-      batch[e] = records[gaussians[e]];
+      batch[e] = tile.records[gaussians[e]];
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint e = 0; e < entries; ++e) {

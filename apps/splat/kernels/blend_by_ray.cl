@@ -76,15 +76,18 @@ blend_by_ray(__constant const splat_view *view,
   const uint y0 = get_group_id(1) * TILE_SIZE;
   const uint2 range = ranges[get_group_id(1) * get_num_groups(0) +
                              get_group_id(0)];
+  const tile_place tile = place_of_tile(records, x0, y0);
   // A work-item's pixels one after the other: its window is in registers.
   for (uint k = 0; k < OWN; ++k) {
     const uint place = k * GROUP + item;
     const uint x = x0 + PLACE_X(place), y = y0 + PLACE_Y(place);
     const bool inside =
         place < TILE_PIXELS && x < view->size[0] && y < view->size[1];
-    const float px = (float)x + 0.5f, py = (float)y + 0.5f;
-    const float2 slope = (float2)((px - view->center[0]) / view->focal[0],
-                                  (py - view->center[1]) / view->focal[1]);
+    const float2 slope =
+        (float2)((((float)x + 0.5f) - view->center[0]) / view->focal[0],
+                 (((float)y + 0.5f) - view->center[1]) / view->focal[1]);
+    const float px = (float)(tile.x + PLACE_X(place)) + 0.5f;
+    const float py = (float)(tile.y + PLACE_Y(place)) + 0.5f;
     pixel_state p = {0.0f, 0.0f, 0.0f, 1.0f, !inside};
     float last_depth = -INFINITY;
     uint last_entry = 0;
@@ -100,7 +103,7 @@ blend_by_ray(__constant const splat_view *view,
         const uint entries = min((uint)BATCH, range.y - base);
         for (uint e = item; e < entries; e += GROUP) {
           const uint i = GAUSSIAN(list[base + e]);
-          batch[e] = records[i];
+          batch[e] = tile.records[i];
           frame[e] = frames[i];
         }
         barrier(CLK_LOCAL_MEM_FENCE);
@@ -133,7 +136,7 @@ blend_by_ray(__constant const splat_view *view,
 #pragma unroll
       for (int w = 0; w < RAY_WINDOW; ++w)
         if (!p.done)
-          p = blend_entry(records, list, window.entry[w], window.alpha[w],
+          p = blend_entry(tile.records, list, window.entry[w], window.alpha[w],
                           cutoff, effects, p);
       last_depth = window.depth[RAY_WINDOW - 1];
       last_entry = window.entry[RAY_WINDOW - 1];

@@ -102,14 +102,26 @@ static screen_covariance covariance_of_rows(float3 b, float3 c) {
   return s;
 }
 
-// The camera's rows times the Gaussian's axes, each as long as its deviation.
-static camera_axes scaled_axes(VIEW_SPACE const splat_view *view, float3 scale,
-                               float4 unit) {
-  world_axes q = rotate_axes(unit);
+// The camera's rows times a Gaussian's axes, each as long as its deviation.
+static camera_axes scaled(VIEW_SPACE const splat_view *view, float3 scale,
+                          world_axes q) {
   q.q0 *= scale.x;
   q.q1 *= scale.y;
   q.q2 *= scale.z;
   return to_camera(view, q);
+}
+
+static camera_axes scaled_axes(VIEW_SPACE const splat_view *view, float3 scale,
+                               float4 unit) {
+  return scaled(view, scale, rotate_axes(unit));
+}
+
+// Covariance of axes at depth z, at the camera-space x/z and y/z in `ratio`.
+static screen_covariance covariance_of_axes(VIEW_SPACE const splat_view *view,
+                                            float z, float2 ratio,
+                                            camera_axes a) {
+  const jacobian j = project_jacobian(view, z, ratio);
+  return covariance_of_rows(j.xx * a.x + j.xz * a.z, j.yy * a.y + j.yz * a.z);
 }
 
 // Covariance of a Gaussian at depth z whose camera-space x/z and y/z, already
@@ -117,7 +129,5 @@ static camera_axes scaled_axes(VIEW_SPACE const splat_view *view, float3 scale,
 static screen_covariance project_covariance(VIEW_SPACE const splat_view *view,
                                             float z, float2 ratio, float3 scale,
                                             float4 unit) {
-  const camera_axes a = scaled_axes(view, scale, unit);
-  const jacobian j = project_jacobian(view, z, ratio);
-  return covariance_of_rows(j.xx * a.x + j.xz * a.z, j.yy * a.y + j.yz * a.z);
+  return covariance_of_axes(view, z, ratio, scaled_axes(view, scale, unit));
 }

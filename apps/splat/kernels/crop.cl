@@ -1,13 +1,18 @@
-// Where the picture is a window beside the principal point (effects/Crop.cpp):
-// how far beside the ray through the picture's middle a point is, rounded once.
-// Beside the axis it would be far, and the place's offset would cancel against
-// the principal point. A file of the model (crop_*.cl) comes after this one and
-// has
+// Where fp32 has too few digits for places from the axis (effects/Crop.cpp,
+// effects/Windows.cpp): how far beside the ray through the picture's or a
+// window's middle a point is, rounded once. A file of the model (crop_*.cl) comes
+// after this one and has
 //
 //     crop_mean   the place in pixels of a point that is so far beside the ray,
 //                 from differences to the ray's own place alone
-static float beside_ray(__local const splat_view *view,
-                        __local const splat_crop *crop, int axis, float x,
+
+// Where a kernel keeps the ray.
+#ifndef CROP_SPACE
+#define CROP_SPACE VIEW_SPACE
+#endif
+
+static float beside_ray(VIEW_SPACE const splat_view *view,
+                        CROP_SPACE const splat_crop *crop, int axis, float x,
                         float y, float z) {
   const float part[3] = {x, y, z};
   float2 beside = (float2)(-crop->start[axis], -crop->start_low[axis]);

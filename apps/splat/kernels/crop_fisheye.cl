@@ -2,15 +2,18 @@
 // `beside` is the point's part along the two directions at right angles to the
 // ray: out, by a greater angle, and around the axis. `ray` has t0, its cosine
 // and sine, and o0.
-static float2 crop_mean(__local const splat_view *view,
-                        __local const splat_lens *lens,
-                        __local const splat_crop *crop, float2 beside,
+static float2 crop_mean(VIEW_SPACE const splat_view *view,
+                        VIEW_SPACE const splat_lens *lens,
+                        CROP_SPACE const splat_crop *crop, float2 beside,
                         float3 p) {
-  __local const float *k = lens->k;
+  VIEW_SPACE const float *k = lens->k;
   const float t0 = crop->ray[0], cosine = crop->ray[1], sine = crop->ray[2];
   const float2 out0 = (float2)(crop->ray[3], crop->ray[4]);
-  // The point in the frame of o0, across it and the axis.
-  const float along = dot(p.xy, out0), across = beside.y;
+  // The point in the frame of o0, across it and the axis. Near the axis `along`
+  // is less than what rounding leaves of x and y.
+  const float along = cosine > 0.5f ? (beside.x + p.z * sine) / cosine
+                                    : dot(p.xy, out0);
+  const float across = beside.y;
   const float radius = sqrt(along * along + across * across);
   // radius - along
   const float bend = along > 0.0f ? across * across / (radius + along)

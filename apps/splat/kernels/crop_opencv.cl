@@ -1,11 +1,11 @@
 // `beside` is x and y less those of the ray at depth z. `ray` has the ray's x/z
 // and y/z, a0 and b0: with a = a0 + da the place's terms less the ray's are
 // multiples of da and db, so that nothing cancels.
-static float2 crop_mean(__local const splat_view *view,
-                        __local const splat_lens *lens,
-                        __local const splat_crop *crop, float2 beside,
+static float2 crop_mean(VIEW_SPACE const splat_view *view,
+                        VIEW_SPACE const splat_lens *lens,
+                        CROP_SPACE const splat_crop *crop, float2 beside,
                         float3 p) {
-  __local const float *k = lens->k;
+  VIEW_SPACE const float *k = lens->k;
   const float a0 = crop->ray[0], b0 = crop->ray[1];
   const float da = beside.x / p.z, db = beside.y / p.z;
   const float a = a0 + da, b = b0 + db;

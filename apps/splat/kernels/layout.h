@@ -54,18 +54,25 @@ typedef struct {
   float angle;     ///< of that
 } splat_shutter;
 
-/// What lies behind the view, and behind the lens where there is one, of a
-/// camera whose principal point is outside the picture: places are measured
-/// from the ray through the picture's middle, or from the axis if the lens
-/// shows nothing in the middle.
+/// What places are measured from where fp32 has too few digits for them: the ray
+/// through the picture's middle, or through a window's, or the axis if the lens
+/// shows nothing there. The picture's lies behind the view, and behind the lens
+/// where there is one.
 typedef struct {
   float across[2][3];     ///< how far beside that ray, by world axis,
   float across_low[2][3]; ///< as high + low
   float start[2];         ///< of parallel rays: how far that ray passes beside
   float start_low[2];     ///< the axis, as high + low; else 0
-  float place[2];         ///< of that ray, px
+  float place[2];         ///< of that ray, px from the picture or the window
   float ray[5];           ///< what the model has to know of it (crop_*.cl)
 } splat_crop;
+
+/// The windows of a wide picture, each of which has its own records (window.h).
+typedef struct {
+  uint bits;    ///< a window's side is so much a power of 2, px
+  uint columns; ///< windows of a row
+  uint stride;  ///< records of a window
+} splat_windows;
 
 /// A Gaussian as rays meet it. Vectors are in the Gaussian's own axes and in
 /// its standard deviations, all of them times its smallest scale.

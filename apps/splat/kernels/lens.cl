@@ -6,6 +6,7 @@
 //     lens_jacobian   the rows of the Jacobian of that, where the model holds it
 //                     if `hold`
 //     lens_curvature  dL/d(point) from dL/d(rows)
+//     lens_is_held    whether it does so, if `hold`
 //     LENS_HOLDS      whether projecting holds it
 
 // Rows in pixels at a point `p` in the camera's axes.

@@ -65,6 +65,13 @@ static lens_rows lens_slopes(VIEW_SPACE const splat_lens *lens, float a, float b
   return s;
 }
 
+static bool lens_is_held(VIEW_SPACE const splat_view *view,
+                         VIEW_SPACE const splat_lens *lens, float3 p,
+                         bool hold) {
+  const float2 own = (float2)(p.x / p.z, p.y / p.z);
+  return any(lens_held(view, own, hold) != own);
+}
+
 static lens_rows lens_jacobian(VIEW_SPACE const splat_view *view,
                                VIEW_SPACE const splat_lens *lens, float3 p,
                                bool hold) {

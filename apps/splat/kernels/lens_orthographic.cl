@@ -6,6 +6,12 @@ static bool lens_at(VIEW_SPACE const splat_lens *lens, float3 p, float2 *at) {
   return true;
 }
 
+static bool lens_is_held(VIEW_SPACE const splat_view *view,
+                         VIEW_SPACE const splat_lens *lens, float3 p,
+                         bool hold) {
+  return false;
+}
+
 static lens_rows lens_jacobian(VIEW_SPACE const splat_view *view,
                                VIEW_SPACE const splat_lens *lens, float3 p,
                                bool hold) {

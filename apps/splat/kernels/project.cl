@@ -51,9 +51,10 @@ static uint project_one(__local workspace *c, __global const float *geometry,
       (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
                GEOMETRY(PLANE_LOG_SCALE + 2), GEOMETRY(PLANE_LOGIT)));
   const uint asked1 = ASK_FOR_SH(1);
-  const float4 unit = activate_quaternion(
+  const float4 stored =
       (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
-               GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3)));
+               GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3));
+  const float4 unit = activate_quaternion(stored);
 #endif
   const uint asked2 = ASK_FOR_SH(2);
   const float3 d = from_camera(view, (float3)(px, py, pz));
@@ -77,7 +78,12 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   if (!lens_at(&c->lens, p, &at))
     return CULLED + (all_finite(x, y) ? CULL_OUTSIDE : CULL_NON_FINITE);
 #endif
-  const camera_axes axes = scaled_axes(view, activated.xyz, unit);
+  camera_axes axes = scaled_axes(view, activated.xyz, unit);
+#if USE_NEEDLES
+  if (!lens_is_held(view, &c->lens, p, LENS_HOLDS))
+    axes = scaled(view, activated.xyz,
+                  axes_across(view, (float3)(px, py, pz), stored));
+#endif
   screen_covariance s;
   float2 shift = (float2)(0.0f, 0.0f);
 #if USE_UNSCENTED
@@ -102,11 +108,24 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   }
 #else
   float2 ratio = (float2)(x / z, y / z);
+#if USE_NEEDLES
+  const float2 own = ratio;
+#endif
   if (USE_FIELD_OF_VIEW)
     ratio = (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
                      clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
+#if USE_NEEDLES
+  // Where the Jacobian is held, the picture has what lies along the ray.
+  const screen_covariance s = covariance_of_axes(
+      view, z, ratio,
+      scaled(view, activated.xyz,
+             all(ratio == own)
+                 ? axes_across(view, (float3)(px, py, pz), stored)
+                 : rotate_axes(unit)));
+#else
   const screen_covariance s =
       project_covariance(view, z, ratio, activated.xyz, unit);
+#endif
 #endif
   if (s.det <= 0.0f)
     return CULLED + CULL_DEGENERATE;

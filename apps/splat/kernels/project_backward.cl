@@ -32,11 +32,27 @@ static float sum_of_copies(__global const float *sums,
 #define SUM(word) sums[(word) * count + i]
 #endif
 
+#if USE_NEEDLES
+// Whether the Jacobian at a point in the camera's axes is held.
+static bool is_held(__constant const splat_view *view, float3 p) {
+#if HAS_LENS
+  return lens_is_held(view, (__constant const splat_lens *)(view + 1), p,
+                      LENS_HOLDS);
+#else
+  const float2 own = (float2)(p.x / p.z, p.y / p.z);
+  return any(own != (float2)(clamp(own.x, view->ratio_low[0],
+                                   view->ratio_high[0]),
+                             clamp(own.y, view->ratio_low[1],
+                                   view->ratio_high[1])));
+#endif
+}
+#endif
+
 // Through the Jacobian at the mean.
 static shape_gradients jacobian_backward(__constant const splat_view *view,
                                          const camera_gaussian *g,
                                          const splat_gradients *by) {
-  const camera_axes axes = g->axes;
+  const camera_axes axes = g->axes, seen = g->seen;
   const float4 activated = g->activated;
   const float scale[3] = {activated.x, activated.y, activated.z};
 #if HAS_LENS
@@ -52,8 +68,8 @@ static shape_gradients jacobian_backward(__constant const splat_view *view,
 #else
   const lens_rows j = lens_rows_at(view, lens, g->place, LENS_HOLDS);
 #endif
-  const float3 fx = j.x.x * axes.x + j.x.y * axes.y + j.x.z * axes.z;
-  const float3 fy = j.y.x * axes.x + j.y.y * axes.y + j.y.z * axes.z;
+  const float3 fx = j.x.x * seen.x + j.x.y * seen.y + j.x.z * seen.z;
+  const float3 fy = j.y.x * seen.x + j.y.y * seen.y + j.y.z * seen.z;
 #else
   const float z = g->place.z;
   const float2 ratio = (float2)(g->place.x / z, g->place.y / z);
@@ -61,8 +77,8 @@ static shape_gradients jacobian_backward(__constant const splat_view *view,
       (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
                clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
   const jacobian j = project_jacobian(view, z, clamped);
-  const float3 fx = j.xx * axes.x + j.xz * axes.z;
-  const float3 fy = j.yy * axes.y + j.yz * axes.z;
+  const float3 fx = j.xx * seen.x + j.xz * seen.z;
+  const float3 fy = j.yy * seen.y + j.yz * seen.z;
 #endif
   const float2 u[3] = {(float2)(fx.x, fy.x), (float2)(fx.y, fy.y),
                        (float2)(fx.z, fy.z)};
@@ -70,7 +86,7 @@ static shape_gradients jacobian_backward(__constant const splat_view *view,
   // p_n = K u_n with the conic K as the adjugate over the determinant. The
   // covariance is h I + sum s_n^2 u_n u_n^T, so a needle's long axis drops out of
   // its own p, of which K in fp32 has lost all digits.
-#if HAS_LENS
+#if HAS_LENS || USE_NEEDLES
   const screen_covariance s =
       covariance_of_rows(fx * activated.xyz, fy * activated.xyz);
 #else
@@ -211,6 +227,11 @@ static void project_backward_one(__constant const splat_view *view,
   const float4 unit = activate_quaternion(stored);
   g.unit = unit;
   g.axes = to_camera(view, rotate_axes(unit));
+  g.seen = g.axes;
+#if USE_NEEDLES
+  if (!is_held(view, g.place))
+    g.seen = to_camera(view, axes_across(view, mean, stored));
+#endif
   // Never 0 where something was blended.
   const splat_gradients by = {
       conic,

@@ -24,6 +24,7 @@ _Static_assert(sizeof(vx_tail) == TAIL_BYTES,
 // What the commands of a picture share.
 typedef struct {
   // Addresses; `last` is that of the tiles' counts with KEEP_COUNTS.
+  __global const splat_gaussian *records;
   uint list, output, last, tails;
   splat_blend_options o;
 } picture_commands;
@@ -50,14 +51,18 @@ static void start_part(const picture_commands *c, uint tile, uint part,
                           count * c->o.tail_last[0] / c->o.tail_last[1]));
     vr_tail_record_set(c->tails + job * (uint)sizeof(vx_tail));
   }
+  const tile_place at = place_of_tile(c->records, x, y);
+#if USE_WINDOWS
+  vr_gaussians_set((uint)at.records);
+#endif
 #ifdef KEEP_COUNTS
   vx_raster_keep_counts(c->last + tile * (uint)sizeof(uint2));
 #endif
 #ifdef KEEP_LAST
   vx_raster_keep_last(c->last + first_pixel * (uint)sizeof(uint));
 #endif
-  vx_raster_render(c->list + (range.x + begin) * (uint)sizeof(uint), count, x, y,
-                   min((uint)TILE_SIZE, c->o.size[0] - x),
+  vx_raster_render(c->list + (range.x + begin) * (uint)sizeof(uint), count,
+                   at.x, at.y, min((uint)TILE_SIZE, c->o.size[0] - x),
                    min((uint)TILE_HEIGHT, c->o.size[1] - y),
                    c->output + first_pixel * (uint)sizeof(float4));
 }
@@ -72,8 +77,8 @@ static void start_jobs(__global const splat_gaussian *records,
   const uint effects = options.effects;
   const uint parts = USE_ZTILES ? options.parts : 1;
   const uint jobs = options.tiles * parts;
-  const picture_commands c = {(uint)list, (uint)pixels, (uint)last, (uint)tails,
-                              options};
+  const picture_commands c = {records,    (uint)list,  (uint)pixels,
+                              (uint)last, (uint)tails, options};
   vx_raster_setup((uint)records, options.cutoff, options.datapath,
                   options.size[0] * (uint)sizeof(float4));
   // Without the pixel unit: no reason to hand over, whatever ran before.

@@ -4,6 +4,7 @@
 #include <vorion_raster.h>
 
 typedef struct {
+  __global const splat_gaussian *records;
   uint list, pixels, last, upstream; // addresses
   uint backward;                     // vr_backward
   splat_blend_options o;
@@ -13,8 +14,12 @@ static void start_tile(const backward_commands *c, uint tile, uint2 range) {
   const uint x = tile % c->o.tiles_x * TILE_SIZE;
   const uint y = tile / c->o.tiles_x * TILE_HEIGHT;
   const uint first = y * c->o.size[0] + x;
+  const tile_place at = place_of_tile(c->records, x, y);
+#if USE_WINDOWS
+  vr_gaussians_set((uint)at.records);
+#endif
   vx_raster_backward(c->list + range.x * (uint)sizeof(uint), range.y - range.x,
-                     x, y, min((uint)TILE_SIZE, c->o.size[0] - x),
+                     at.x, at.y, min((uint)TILE_SIZE, c->o.size[0] - x),
                      min((uint)TILE_HEIGHT, c->o.size[1] - y),
                      c->pixels + first * (uint)sizeof(float4),
                      c->last + first * (uint)sizeof(uint),
@@ -71,8 +76,9 @@ rasterize_backward(__global const splat_gaussian *records,
                    __global const uint *places, __global float *sums,
                    __global uint *statuses, splat_blend_options options,
                    uint backward) {
-  const backward_commands c = {(uint)list, (uint)pixels, (uint)last,
-                               (uint)upstream, backward, options};
+  const backward_commands c = {records,    (uint)list,     (uint)pixels,
+                               (uint)last, (uint)upstream, backward,
+                               options};
   vx_raster_setup((uint)records, options.cutoff, options.datapath,
                   options.size[0] * (uint)sizeof(float4));
   vr_tail_count_set(0);

@@ -16,6 +16,8 @@ static_assert(sizeof(splat_density) == 24, "4-byte members without padding");
 static_assert(sizeof(splat_lens) == 60, "4-byte members without padding");
 static_assert(sizeof(splat_shutter) == 40, "4-byte members without padding");
 static_assert(sizeof(splat_crop) == 92, "4-byte members without padding");
+static_assert(sizeof(splat_windows) <= sizeof(splat_gaussian),
+              "they lie in the place of a record");
 static_assert(sizeof(splat_view) == 144, "4-byte members without padding");
 
 /// Blocks of LINE_WORDS that so many Gaussians take.

@@ -138,10 +138,28 @@ bool isCrop(const splat_view &V) {
   return Outside(0) || Outside(1);
 }
 
-splat_crop makeCrop(const Camera &C) {
-  // The ray through the middle, and what it is beside, in the camera's axes.
+namespace {
+
+/// Two vectors.
+using Pair = std::array<std::array<double, 3>, 2>;
+
+/// The ray through \p Place of a full sphere, and the directions to its right
+/// and down.
+Pair besideOnSphere(const Camera &C, const double *Place, splat_crop &Crop) {
+  const double Longitude = (Place[0] - C.Cx) / C.Fx;
+  const double Latitude = (Place[1] - C.Cy) / C.Fy;
+  const double Known[] = {std::sin(Longitude), std::cos(Longitude),
+                          std::sin(Latitude), std::cos(Latitude)};
+  std::ranges::transform(Known, Crop.ray,
+                         [](double K) { return static_cast<float>(K); });
+  return {{{Known[1], 0, -Known[0]},
+           {-Known[0] * Known[2], Known[3], -Known[1] * Known[2]}}};
+}
+
+/// From the ray through \p Place, which becomes that of the axis where the lens
+/// shows nothing there.
+Pair besideRay(const Camera &C, double *Place, splat_crop &Crop) {
   const double Focal[2] = {C.Fx, C.Fy};
-  double Place[2] = {0.5 * C.Width, 0.5 * C.Height};
   const double Center[2] = {C.Cx, C.Cy};
   auto Ray = C.Optics.direction((Place[0] - Center[0]) / Focal[0],
                                 (Place[1] - Center[1]) / Focal[1]);
@@ -150,38 +168,61 @@ splat_crop makeCrop(const Camera &C) {
     std::ranges::copy(Center, Place);
   }
   const auto [X, Y, Z] = *Ray;
-  std::array<std::array<double, 3>, 2> Beside{};
-  splat_crop Crop{};
   switch (C.Optics.Model) {
   case LensModel::Fisheye: {
     const double Sine = std::hypot(X, Y);
     const double Out[2] = {Sine > 0 ? X / Sine : 1, Sine > 0 ? Y / Sine : 0};
-    Beside = {{{Out[0] * Z, Out[1] * Z, -Sine}, {-Out[1], Out[0], 0}}};
     const double Known[] = {std::atan2(Sine, Z), Z, Sine, Out[0], Out[1]};
     std::ranges::transform(Known, Crop.ray,
                            [](double K) { return static_cast<float>(K); });
-    break;
+    return {{{Out[0] * Z, Out[1] * Z, -Sine}, {-Out[1], Out[0], 0}}};
   }
   case LensModel::Orthographic:
-    Beside = {{{1, 0, 0}, {0, 1, 0}}};
     for (int A = 0; A < 2; ++A)
       split((Place[A] - Center[A]) / Focal[A], Crop.start[A],
             Crop.start_low[A]);
-    break;
+    return {{{1, 0, 0}, {0, 1, 0}}};
   default:
-    Beside = {{{1, 0, -X / Z}, {0, 1, -Y / Z}}};
     Crop.ray[0] = static_cast<float>(X / Z);
     Crop.ray[1] = static_cast<float>(Y / Z);
+    return {{{1, 0, -X / Z}, {0, 1, -Y / Z}}};
   }
+}
+
+/// Measured from the ray through (\p X, \p Y), in pixels from \p First.
+splat_crop makeCrop(const Camera &C, double X, double Y,
+                    const std::array<double, 2> &First) {
+  splat_crop Crop{};
+  double Place[2] = {X, Y};
+  const Pair Beside = C.Optics.Model == LensModel::Equirectangular
+                          ? besideOnSphere(C, Place, Crop)
+                          : besideRay(C, Place, Crop);
   const auto Rotation = C.worldToCameraRotation();
   for (std::size_t A = 0; A < 2; ++A) {
-    Crop.place[A] = static_cast<float>(Place[A]);
+    Crop.place[A] = static_cast<float>(Place[A] - First[A]);
     for (std::size_t K = 0; K < 3; ++K)
       split(Beside[A][0] * Rotation[K] + Beside[A][1] * Rotation[3 + K] +
                 Beside[A][2] * Rotation[6 + K],
             Crop.across[A][K], Crop.across_low[A][K]);
   }
   return Crop;
+}
+
+} // namespace
+
+splat_crop makeCrop(const Camera &C) {
+  return makeCrop(C, 0.5 * C.Width, 0.5 * C.Height, {0, 0});
+}
+
+std::vector<splat_crop> makeWindows(const Camera &C, unsigned Bits) {
+  const int Side = 1 << Bits;
+  std::vector<splat_crop> Windows;
+  for (int Y = 0; Y < C.Height; Y += Side)
+    for (int X = 0; X < C.Width; X += Side)
+      Windows.push_back(makeCrop(C, 0.5 * (X + std::min(X + Side, C.Width)),
+                                 0.5 * (Y + std::min(Y + Side, C.Height)),
+                                 {double(X), double(Y)}));
+  return Windows;
 }
 
 bool isRolling(const std::vector<Camera> &Cameras) {

@@ -5,6 +5,8 @@
 #include "picture/Layout.h"
 #include "picture/Options.h"
 
+#include <vector>
+
 namespace vorion::splat {
 
 /// \p C rounded to fp32 once, with the Jacobian's limits of \p Options' rules
@@ -21,9 +23,13 @@ splat_shutter makeShutter(const Camera &C);
 /// a larger one: the place's offset cancels against the principal point.
 bool isCrop(const splat_view &V);
 
-/// What lies behind the view and the lens of such a camera, which is not
-/// equirectangular.
+/// From what places in a picture are measured where fp32 has too few digits for
+/// them, which is not that of an equirectangular camera.
 splat_crop makeCrop(const Camera &C);
+
+/// Likewise in the windows of a picture, whose sides are 2^\p Bits px: row by
+/// row, each with places from its first pixel.
+std::vector<splat_crop> makeWindows(const Camera &C, unsigned Bits);
 
 /// The model by which one program draws all of \p Cameras, \p Path's: the one
 /// that they have, or OpenCV's for pinholes among such.

@@ -24,7 +24,10 @@ constexpr const char *DepthLossProgram = "depth loss";
 std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
                                       const BackwardOptions &B) {
   const bool Gsplat = O.Convention == Rules::Gsplat;
-  ProgramSpec Blend{BlendBackwardProgram, {"layout.h"}, tileDefines(O)};
+  ProgramSpec Blend{
+      BlendBackwardProgram, {"layout.h", "window.h"}, tileDefines(O)};
+  if (B.Windows)
+    Blend.Defines.push_back(fmt::format("{}=1", effects::Windows.Macro));
   if (O.Blending == Path::Raster) {
     Blend.Files.insert(Blend.Files.end(), {"deal.cl", "rasterize_backward.cl"});
   } else {
@@ -66,6 +69,10 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
     Has(effects::Unscented);
     Project.Files.emplace_back("unscented_backward.cl");
     Project.Defines.push_back(keepDepthDefine(O));
+  }
+  if (B.Needles) {
+    Has(effects::Needles);
+    Project.Files.emplace_back("across.cl");
   }
   Project.Files.emplace_back("project_backward.cl");
   if (Gsplat)
@@ -174,7 +181,7 @@ cl::Buffer BackwardPipeline::sumsByAtomics(const Frame &F,
   const uint32_t Items = Options.SimtTile * Options.SimtTile;
   Launch.run(BlendBackwardProgram, "blend_backward_atomics",
              cl::NDRange(F.View.tiles[0] * Items, F.View.tiles[1]),
-             cl::NDRange(Items, 1), F.Records, F.List, F.Ranges, F.Pixels,
+             cl::NDRange(Items, 1), F.Blended, F.List, F.Ranges, F.Pixels,
              F.Last, By, Found, F.drawn(), F.View.size[0], F.View.size[1]);
   return Found;
 }
@@ -186,7 +193,7 @@ void BackwardPipeline::blend(Pipeline &Forward, const Frame &F,
   if (Options.Blending == Path::Simt) {
     Launch.run(BlendBackwardProgram, "blend_backward",
                cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
-               cl::NDRange(Lanes, 1), F.Records, F.List, F.Ranges, F.Pixels,
+               cl::NDRange(Lanes, 1), F.Blended, F.List, F.Ranges, F.Pixels,
                F.Last, By, F.ByTile.Values, PairSums, F.View.size[0],
                F.View.size[1]);
     return;
@@ -199,7 +206,7 @@ void BackwardPipeline::blend(Pipeline &Forward, const Frame &F,
   const std::size_t Cores = Launch.device().computeUnits();
   const cl::Buffer Statuses = Launch.allocate("cores' statuses", 4 * Cores);
   Launch.run(BlendBackwardProgram, "rasterize_backward", Cores * Lanes, Lanes,
-             F.Records, F.List, F.Ranges, F.TileOrder, F.Pixels, F.Last, By,
+             F.Blended, F.List, F.Ranges, F.TileOrder, F.Pixels, F.Last, By,
              F.ByTile.Values, PairSums, Statuses, Forward.blendOptions(),
              Backward);
   Forward.checkStatuses(Statuses);

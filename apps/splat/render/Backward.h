@@ -49,6 +49,8 @@ struct BackwardOptions {
   /// planes of \c sums() from SUM_WORDS on. By the cores alone: the rasterizer
   /// has no such sums.
   bool AbsoluteSums = false;
+  /// Whether the frames are of a plan with these effects.
+  bool Windows = false, Needles = false;
   /// Runs may have depth targets.
   bool Depths = false;
   /// \c gradients() has the planes of kernels/pose.h, too.

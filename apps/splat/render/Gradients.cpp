@@ -1,5 +1,6 @@
 #include "render/Gradients.h"
 
+#include "effects/Registry.h"
 #include "picture/View.h"
 
 namespace vorion::splat {
@@ -53,16 +54,16 @@ SceneGradients readGradients(Launcher &L, const BackwardPipeline &Back,
 
 RenderPlan gradientPlan(const Scene &S, const Camera &C,
                         const RenderOptions &Options) {
-  ViewFacts Facts;
-  Facts.IsCrop = isCrop(makeView(C, Options));
-  return planRender(EffectPlan::forAnyScene(S.ShDegree, Options, Facts),
-                    Options);
+  return planRender(
+      EffectPlan::forAnyScene(S.ShDegree, Options,
+                              factsOf(S, makeView(C, Options), Options)),
+      Options);
 }
 
 Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
                                        const Camera &C,
                                        const RenderOptions &Options,
-                                       const BackwardOptions &Backward,
+                                       const BackwardOptions &Choice,
                                        const PixelGradients &U) {
   // A band of zeros has gradients too.
   const int ShDegree = S.ShDegree;
@@ -70,6 +71,9 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   RenderPlan Plan = gradientPlan(S, C, Options);
   for (const ProgramSpec &Program : Plan.Programs)
     L.build(Program);
+  BackwardOptions Backward = Choice;
+  Backward.Windows = Plan.Effects.done(effects::Windows);
+  Backward.Needles = Plan.Effects.done(effects::Needles);
   buildBackward(L, ShDegree, Options, Backward);
   if (L.failure())
     return *L.failure();

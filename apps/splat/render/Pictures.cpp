@@ -36,8 +36,7 @@ ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
                      const RenderOptions &O) {
   std::optional<ViewFacts> All;
   for (const Camera &C : Cameras) {
-    const ViewFacts Own =
-        factsOf(S, makeView(C, O), O.nearLimit(), O.byDistance());
+    const ViewFacts Own = factsOf(S, makeView(C, O), O);
     All = All ? combined(*All, Own) : Own;
   }
   return *All;

@@ -206,6 +206,28 @@ void Pipeline::writeCamera(const Camera &C) {
   const std::size_t Bytes = Words.size() * sizeof(uint32_t);
   Current.Camera = Launch.allocate("camera", Bytes);
   Launch.write("camera", Current.Camera, Words.data(), Bytes);
+  if (Plan.done(effects::Windows))
+    divide(C);
+}
+
+/// Into the smallest windows of whose records there is room.
+void Pipeline::divide(const Camera &C) {
+  constexpr unsigned Least = 8, Most = 15;
+  constexpr uint64_t Room = uint64_t{1} << 29; // bytes
+  const uint32_t Stride = LINE_WORDS * blocksOf(Current.drawn());
+  for (unsigned Bits = Least; Bits <= Most; ++Bits) {
+    const auto Along = [&](int A) {
+      return ((Current.View.size[A] - 1) >> Bits) + 1;
+    };
+    Current.WindowCount = Along(0) * Along(1);
+    Current.Windows = {Bits, Along(0), Stride};
+    if (sizeof(splat_gaussian) * uint64_t{Stride} * Current.WindowCount <= Room)
+      break;
+  }
+  const std::vector<splat_crop> Rays = makeWindows(C, Current.Windows.bits);
+  const std::size_t Bytes = sizeof(splat_crop) * Rays.size();
+  Current.WindowRays = Launch.allocate("rays of windows", Bytes);
+  Launch.write("rays of windows", Current.WindowRays, Rays.data(), Bytes);
 }
 
 void Pipeline::sortByDepth() {
@@ -269,12 +291,28 @@ void Pipeline::sortByTile() {
              Current.tiles());
 }
 
+/// Gives the windows what has become of the records.
+void Pipeline::placeInWindows() {
+  Current.Blended = Current.Records;
+  if (!Plan.done(effects::Windows))
+    return;
+  Current.Blended = Launch.allocate(
+      "Gaussians of windows",
+      sizeof(splat_gaussian) *
+          (1 + uint64_t{Current.WindowCount} * Current.Windows.stride));
+  Launch.run(WindowsProgram, "records_of_windows", itemsFor(Current.drawn()),
+             GroupSize, Current.Camera, Current.Gaussians.Geometry,
+             Current.Records, Current.Depths.Keys, Current.Rectangles,
+             Current.WindowRays, Current.Blended, Current.Gaussians.Count,
+             Current.drawn(), Current.stride(), Current.Windows);
+}
+
 void Pipeline::blend() {
   if (Options.Blending == Path::Simt)
     return shade();
   prepareRasterizers();
   Launch.run(BlendProgram, "rasterize", Launch.device().computeUnits() * Lanes,
-             Lanes, Current.Records, Current.List, Current.Ranges,
+             Lanes, Current.Blended, Current.List, Current.Ranges,
              Current.TileOrder, Current.Parts, Current.Last, Current.Tails,
              Current.Statuses, blendOptions());
   endBlending();
@@ -327,16 +365,17 @@ Frame Pipeline::drawBeside(const cl::Buffer &Records) {
 }
 
 void Pipeline::shade() {
+  placeInWindows();
   allocatePixels();
   const std::size_t Group = Options.SimtGroup;
   const cl::NDRange Items(Current.View.tiles[0] * Group, Current.View.tiles[1]);
   const cl::NDRange GroupItems(Group, 1);
   if (Plan.done(effects::RayOrder))
     return Launch.run(BlendProgram, "blend_by_ray", Items, GroupItems,
-                      Current.Camera, Current.Records, Current.RayFrames,
+                      Current.Camera, Current.Blended, Current.RayFrames,
                       Current.List, Current.Ranges, Current.Pixels,
                       Options.Cutoff, Current.View.effects);
-  Launch.run(BlendProgram, "blend", Items, GroupItems, Current.Records,
+  Launch.run(BlendProgram, "blend", Items, GroupItems, Current.Blended,
              Current.List, Current.Ranges, Current.Pixels, Current.Last,
              Current.View.size[0], Current.View.size[1], Options.Cutoff,
              Current.View.effects);
@@ -376,6 +415,7 @@ splat_blend_options Pipeline::blendOptions() const {
 }
 
 void Pipeline::prepareRasterizers() {
+  placeInWindows();
   allocatePixels();
   Current.Parts = Current.Pixels;
   if (Plan.done(effects::ZTiles))
@@ -417,7 +457,7 @@ void Pipeline::dealByLastFrame() {
 
 void Pipeline::startBlending() {
   Launch.run(BlendProgram, "rasterize_start",
-             Launch.device().computeUnits() * Lanes, Lanes, Current.Records,
+             Launch.device().computeUnits() * Lanes, Lanes, Current.Blended,
              Current.List, Current.Ranges, Current.TileOrder, Current.Parts,
              Current.Last, Current.Tails, blendOptions());
 }

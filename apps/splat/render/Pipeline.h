@@ -59,6 +59,9 @@ struct Frame {
   Sorter::Pairs ByTile;
   cl::Buffer List;
   cl::Buffer Ranges; ///< of each tile in the list
+  /// The records that are blended: with the effect \c Windows those of the
+  /// windows (kernels/window.h), else Records.
+  cl::Buffer Blended;
   /// Where rasterizers draw, tiles by length; or those of each rasterizer, as
   /// kernels/deal_last_frame.cl leaves them.
   cl::Buffer TileOrder;
@@ -70,6 +73,10 @@ struct Frame {
   /// frame deals: Gaussians and fragments that a tile has taken, which the next
   /// frame inherits.
   cl::Buffer Last;
+  /// With the effect \c Windows: how they lie, and a splat_crop of each.
+  splat_windows Windows{};
+  cl::Buffer WindowRays;
+  uint32_t WindowCount = 0;
   cl::Buffer RayFrames; ///< with the effect \c RayOrder: a splat_ray_frame each
   uint32_t Visible = 0, Pairs = 0;
   uint32_t LeastKey = 0, GreatestKey = 0; ///< of those seen
@@ -138,10 +145,12 @@ private:
   /// Whether a lens or a crop lies behind the view.
   bool hasMoreThanView() const;
   void writeCamera(const Camera &C);
+  void divide(const Camera &C);
   void sortByDepth();
   void countPairs();
   void duplicate();
   void sortByTile();
+  void placeInWindows();
   void blend();
   cl::Buffer blendAgain();
   uint64_t wordsOfOrder() const;

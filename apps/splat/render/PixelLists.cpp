@@ -27,17 +27,28 @@ struct Walk {
         LeastAlpha(static_cast<float>(O.AlphaCutoff) / 255.0F),
         StopsAtEqual(O.Convention == Rules::Gsplat) {}
 
+  /// The records of the window of pixel (\p X, \p Y), and a coordinate of its
+  /// centre there (kernels/window.h).
+  const splat_gaussian *recordsAt(uint32_t X, uint32_t Y) const {
+    const splat_windows &W = Lists.Windows;
+    const uint32_t Window = (Y >> W.bits) * W.columns + (X >> W.bits);
+    return Lists.Records.data() + std::size_t{Window} * W.stride;
+  }
+  float inWindow(uint32_t V) const {
+    return static_cast<float>(V & ((1U << Lists.Windows.bits) - 1)) + 0.5F;
+  }
+
   /// Calls \p Blend for what pixel (\p X, \p Y) blends of \p Row, which has
   /// all of its row, front to back, in the operations of docs/abi.md
   /// ("Rasterizer").
   template <typename Function>
   void pixel(const std::vector<uint32_t> &Row, uint32_t X, uint32_t Y,
              Function Blend) const {
-    const float Px = static_cast<float>(X) + 0.5F;
-    const float Py = static_cast<float>(Y) + 0.5F;
+    const splat_gaussian *const Records = recordsAt(X, Y);
+    const float Px = inWindow(X), Py = inWindow(Y);
     float T = 1;
     for (const uint32_t Record : Row) {
-      const splat_gaussian &G = Lists.Records[Record];
+      const splat_gaussian &G = Records[Record];
       const float Dx = G.mean[0] - Px, Dy = G.mean[1] - Py;
       if (!(std::abs(Dx) <= G.extent[0]))
         continue;
@@ -61,12 +72,14 @@ struct Walk {
   }
 
   /// What of \p Tile's list reaches row \p Y.
-  void takeRow(uint32_t Tile, uint32_t Y, std::vector<uint32_t> &Row) const {
-    const float Py = static_cast<float>(Y) + 0.5F;
+  void takeRow(uint32_t Tile, uint32_t X, uint32_t Y,
+               std::vector<uint32_t> &Row) const {
+    const splat_gaussian *const Records = recordsAt(X, Y);
+    const float Py = inWindow(Y);
     Row.clear();
     for (uint32_t At = Lists.Ranges[Tile][0]; At < Lists.Ranges[Tile][1];
          ++At) {
-      const splat_gaussian &G = Lists.Records[Lists.List[At]];
+      const splat_gaussian &G = Records[Lists.List[At]];
       if (std::abs(G.mean[1] - Py) <= G.extent[1])
         Row.push_back(Lists.List[At]);
     }
@@ -83,7 +96,7 @@ struct Walk {
       const uint32_t X0 = Tile % Columns * Across, Y0 = Tile / Columns * Down;
       std::vector<uint32_t> Row;
       for (uint32_t Y = Y0; Y < std::min(Y0 + Down, Height); ++Y) {
-        takeRow(Tile, Y, Row);
+        takeRow(Tile, X0, Y, Row);
         for (uint32_t X = X0; X < std::min(X0 + Across, Width); ++X)
           Work(Row, X, Y);
       }
@@ -98,12 +111,19 @@ PixelLists readLists(Launcher &Launch, const Frame &F, const RenderOptions &O) {
   L.Size = {F.View.size[0], F.View.size[1]};
   L.TileSize = {O.tileSize(), O.tileHeight()};
   L.Stride = F.stride();
-  L.Records.resize(F.drawn());
+  if (F.WindowCount != 0) {
+    L.Windows = F.Windows;
+    L.Records.resize(1 + std::size_t{F.WindowCount} * F.Windows.stride);
+  } else {
+    L.Records.resize(F.drawn());
+  }
   L.Depths.resize(F.drawn());
   L.List.resize(F.Pairs);
   L.Ranges.resize(F.tiles());
-  Launch.read("projected Gaussians", L.Records.data(), F.Records,
+  Launch.read("projected Gaussians", L.Records.data(), F.Blended,
               sizeof(splat_gaussian) * L.Records.size());
+  if (F.WindowCount != 0)
+    L.Records.erase(L.Records.begin());
   Launch.read("depths", L.Depths.data(), F.Depths.Keys, 4 * L.Depths.size());
   Launch.read("Gaussians of pairs", L.List.data(), F.List, 4 * L.List.size());
   Launch.read("tile ranges", L.Ranges.data(), F.Ranges, 8 * L.Ranges.size());

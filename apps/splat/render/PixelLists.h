@@ -17,9 +17,11 @@ namespace vorion::splat {
 struct PixelLists {
   std::array<uint32_t, 2> Size{};     ///< picture, px
   std::array<uint32_t, 2> TileSize{}; ///< px
+  /// Those of each window, one window after the other; a whole picture is one.
   std::vector<splat_gaussian> Records;
+  splat_windows Windows{31, 1, 0};
   std::vector<float> Depths;  ///< of each record; of one not seen, anything
-  std::vector<uint32_t> List; ///< of all tiles; numbers of records
+  std::vector<uint32_t> List; ///< of all tiles; numbers of records in a window
   std::vector<std::array<uint32_t, 2>> Ranges; ///< of each tile in the list
   uint32_t Stride = 0; ///< record i shows Gaussian i % Stride of the scene
 

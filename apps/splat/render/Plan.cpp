@@ -79,7 +79,7 @@ bool uses(const ProgramSpec &P, const std::string &Define) {
   });
 }
 
-/// What a crop needs beside the lens's files.
+/// What measures from a ray, beside the lens's files.
 std::vector<std::string> cropFiles(const RenderOptions &O) {
   switch (O.Optics) {
   case LensModel::OpenCv:
@@ -88,6 +88,8 @@ std::vector<std::string> cropFiles(const RenderOptions &O) {
     return {"crop.cl", "crop_fisheye.cl"};
   case LensModel::Orthographic:
     return {"crop.cl", "crop_orthographic.cl"};
+  case LensModel::Equirectangular:
+    return {"crop.cl", "crop_equirectangular.cl"};
   default:
     return {"crop.cl", "crop_pinhole.cl"};
   }
@@ -172,8 +174,10 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
        {SortProgram, {"sort.cl"}, {}},
        {TilesProgram, {"layout.h", "rectangle.cl", "tiles.cl"}, {}},
        {BlendProgram,
-        Raster ? std::vector<std::string>{"layout.h", Deal, "rasterize.cl"}
-               : std::vector<std::string>{"layout.h", Falloff, "blend.cl"},
+        Raster ? std::vector<std::string>{"layout.h", "window.h", Deal,
+                                          "rasterize.cl"}
+               : std::vector<std::string>{"layout.h", "window.h", Falloff,
+                                          "blend.cl"},
         {}}}};
   if (Plan.Effects.done(effects::RayOrder)) {
     Plan.Programs.back().Files.emplace_back("blend_by_ray.cl");
@@ -184,12 +188,24 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   }
   auto &Project = Plan.Programs.front().Files;
   std::ranges::copy(lensFiles(Options), std::back_inserter(Project));
+  if (Plan.Effects.done(effects::Needles))
+    Project.emplace_back("across.cl");
   if (Plan.Effects.done(effects::Crop))
     std::ranges::copy(cropFiles(Options), std::back_inserter(Project));
   Project.emplace_back("project_memory.cl");
   if (Plan.Effects.done(effects::EquirectangularLens))
     Project.emplace_back("project_copies.cl");
   Project.emplace_back("project.cl");
+  if (Plan.Effects.done(effects::Windows)) {
+    ProgramSpec Windows{WindowsProgram,
+                        {"layout.h", "has_lens.h", "activate.cl",
+                         "covariance.cl", "planes.h", "rectangle.cl"},
+                        {"CROP_SPACE=__global"}};
+    std::ranges::copy(lensFiles(Options), std::back_inserter(Windows.Files));
+    std::ranges::copy(cropFiles(Options), std::back_inserter(Windows.Files));
+    Windows.Files.emplace_back("windows.cl");
+    Plan.Programs.push_back(std::move(Windows));
+  }
   if (Plan.Effects.done(effects::ActivatedScene))
     Plan.Programs.push_back(
         {ActivateProgram,

@@ -23,6 +23,7 @@ inline constexpr const char *ResolveProgram = "resolve";
 inline constexpr const char *RayFramesProgram = "ray_frames";
 inline constexpr const char *DepthProgram = "depth";
 inline constexpr const char *NormalsProgram = "normals";
+inline constexpr const char *WindowsProgram = "windows";
 
 /// Which depths are drawn.
 std::string keepDepthDefine(const RenderOptions &O);

@@ -11,8 +11,7 @@ namespace {
 
 RenderPlan planFor(const Scene &S, const RenderOptions &O,
                    const std::string &Request = "auto") {
-  const ViewFacts Facts = factsOf(S, makeView(Camera::ahead(64, 48, 50), O),
-                                  nearLimit(O.Convention));
+  const ViewFacts Facts = factsOf(S, makeView(Camera::ahead(64, 48, 50), O), O);
   return planRender(
       EffectPlan(*parseEffectRequest(Request), {S, O, Facts, false}), O);
 }

@@ -1,5 +1,6 @@
 #include "train/DeviceRenderer.h"
 
+#include "effects/Registry.h"
 #include "render/Renderer.h"
 
 namespace vorion::splat {
@@ -29,15 +30,20 @@ DeviceRenderer::DeviceRenderer(Launcher &Launch, Rules Convention,
                                const Blender &By,
                                const BackwardOptions &Backward, const Look &How)
     : Launch(Launch), Choice(Backward),
-      Options(trainingOptions(Convention, By, How)), Behind(How.Background),
-      Drawing(Launch, Options, EffectPlan::forAnyScene(MaxShDegree, Options)) {
+      Options(trainingOptions(Convention, By, How)), Facts(How.Facts),
+      Behind(How.Background),
+      Drawing(Launch, Options,
+              EffectPlan::forAnyScene(MaxShDegree, Options, Facts)) {
   Choice.Parameters = GradientsOf::Stored;
 }
 
 void DeviceRenderer::build(int ShDegree) {
   Launch.beginStage(Stage::Build);
-  for (const ProgramSpec &P : planRender(ShDegree, Options).Programs)
+  const RenderPlan Plan =
+      planRender(EffectPlan::forAnyScene(ShDegree, Options, Facts), Options);
+  for (const ProgramSpec &P : Plan.Programs)
     Launch.build(P);
+  Choice.Windows = Plan.Effects.done(effects::Windows);
   buildBackward(Launch, ShDegree, Options, Choice);
   Back.emplace(Launch, Options, Choice, ShDegree);
   BuiltDegree = ShDegree;

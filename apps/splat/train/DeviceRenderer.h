@@ -32,6 +32,7 @@ public:
     LensModel Optics = LensModel::Pinhole;
     bool Rolling = false;
     Spread Through = Spread::Jacobian;
+    ViewFacts Facts{}; ///< those that need no scene
     /// @}
   };
   /// Renders by the rules of \p Convention, support `exact`.
@@ -59,6 +60,7 @@ private:
   Launcher &Launch;
   BackwardOptions Choice;
   RenderOptions Options;
+  ViewFacts Facts;
   std::array<float, 3> Behind; ///< the picture
   Pipeline Drawing;
   int BuiltDegree = -1; ///< bands that the programs have

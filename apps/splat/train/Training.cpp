@@ -357,6 +357,13 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
   return Success{};
 }
 
+ViewFacts factsOfCameras(const std::vector<Camera> &Cameras) {
+  ViewFacts All = factsOfCamera(makeView(Cameras.front(), {}));
+  for (const Camera &C : Cameras)
+    All = combined(All, factsOfCamera(makeView(C, {})));
+  return All;
+}
+
 /// \p Ready becomes true once every process has come as far as to train.
 Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
                             Ranks &Processes, bool &Ready, TrainOutcome &Out) {
@@ -405,7 +412,7 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
                           {R.Run.Background, R.Run.RandomBackground,
                            R.Run.Antialiased, *Model, isRolling(Cameras),
-                           R.Run.Through});
+                           R.Run.Through, factsOfCameras(Cameras)});
   Trainer T(Launch, Renderer, *Pictures, R.Run, Processes, Out.Moments);
   if (auto Started = start(W, T); !Started)
     return Started;

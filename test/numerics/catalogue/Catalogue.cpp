@@ -9,6 +9,7 @@ std::vector<HardCase> catalogue() {
   addOpacities(Cases);
   addOrders(Cases);
   addViews(Cases);
+  addPlaces(Cases);
   addLists(Cases);
   addLenses(Cases);
   return Cases;

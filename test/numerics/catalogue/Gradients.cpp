@@ -3,6 +3,7 @@
 #include "Build.h"
 #include "GradientJudge.h"
 #include "Lenses.h"
+#include "Places.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -362,6 +363,22 @@ TrainingCase pointsBeside() {
                 std::move(G), {"points-anywhere"});
 }
 
+TrainingCase needlesAt(splat::LensModel M, std::string Name, std::string Why) {
+  const splat::Camera View = needleView(M);
+  GradientScene G{pointingNeedles(View, 85), View, {}};
+  G.Options.Optics = M;
+  return caseOf(std::move(Name), std::move(Why), std::move(G),
+                {"needles-by-plain-sums"});
+}
+
+TrainingCase smallOn(std::string Name, std::string Why, splat::Camera View,
+                     std::vector<std::string> FoundIn) {
+  GradientScene G{smallOnPicture(View, 80, 91), View, {}};
+  G.Options.Optics = View.Optics.Model;
+  return caseOf(std::move(Name), std::move(Why), std::move(G),
+                std::move(FoundIn));
+}
+
 } // namespace
 
 void addGradients(std::vector<TrainingCase> &Cases) {
@@ -434,6 +451,20 @@ void addGradients(std::vector<TrainingCase> &Cases) {
                                  "gradients-through-shutter-equirectangular",
                                  "the same on a full sphere"));
   Cases.push_back(pointsBeside());
+  Cases.push_back(needlesAt(splat::LensModel::Pinhole,
+                            "gradients-of-needles-ahead",
+                            "needles of 1,000 to 6,000 px that point at the "
+                            "camera"));
+  Cases.push_back(needlesAt(splat::LensModel::Fisheye,
+                            "gradients-of-needles-at-a-fisheye",
+                            "the same at a fisheye"));
+  Cases.push_back(smallOn("gradients-through-a-long-lens",
+                          "a focal length of 400,000 px", longView(),
+                          {"crop-by-plain-sum"}));
+  Cases.push_back(smallOn("gradients-of-a-wide-picture",
+                          "16,384 px wide, the principal point beside its "
+                          "middle",
+                          wideView(), {"windows-by-plain-places"}));
 }
 
 } // namespace vorion::test

@@ -60,6 +60,7 @@ std::vector<CaseElsewhere> casesElsewhere();
 void addShapes(std::vector<HardCase> &Cases);
 void addOpacities(std::vector<HardCase> &Cases);
 void addViews(std::vector<HardCase> &Cases);
+void addPlaces(std::vector<HardCase> &Cases);
 void addOrders(std::vector<HardCase> &Cases);
 void addLists(std::vector<HardCase> &Cases);
 void addLenses(std::vector<HardCase> &Cases);

@@ -52,6 +52,48 @@ splat::Scene allAround(uint32_t Count, uint32_t Seed, double Scale) {
   return S;
 }
 
+splat::Camera needleView(LensModel M) {
+  // Short enough for the means to keep their digits.
+  splat::Camera C =
+      turnedView(frontView(96, 64, M == LensModel::Orthographic ? 40 : 250));
+  C.Optics = {M, someCoefficients(M)};
+  return C;
+}
+
+splat::Scene pointingNeedles(const splat::Camera &C, uint32_t Seed) {
+  splat::Scene S;
+  Numbers R(Seed);
+  const bool IsParallel = C.Optics.Model == LensModel::Orthographic;
+  for (int I = 0; I < 60; ++I) {
+    const double Z = R.uniform(2, 6), Pixel = (IsParallel ? 1 : Z) / C.Fx;
+    const double X = (R.uniform(3, C.Width - 3) - C.Cx) * Pixel;
+    const double Y = (R.uniform(3, C.Height - 3) - C.Cy) * Pixel;
+    const auto Mean = seenAt(C, X, Y, Z);
+    const double Length = R.uniform(1000, 6000) * Pixel;
+    // A point of the ray, and beside it as much as the picture is to have.
+    const double Far = IsParallel ? 0 : Length / Z;
+    const double Aside = R.uniform(0.5, 3) * Pixel;
+    const double Angle = R.uniform(0, 6.28);
+    const auto Tip = seenAt(C, X * (1 + Far) + Aside * std::cos(Angle),
+                            Y * (1 + Far) + Aside * std::sin(Angle),
+                            Z + (IsParallel ? Length : Z * Far));
+    std::array<double, 3> Axis{};
+    for (std::size_t K = 0; K < 3; ++K)
+      Axis[K] = double(Tip[K]) - double(Mean[K]);
+    const double Long = std::hypot(Axis[0], Axis[1], Axis[2]);
+    // It turns the first axis there.
+    add(S, {.Mean = Mean,
+            .Scale = {Length, Pixel * R.uniform(0.3, 2),
+                      Pixel * R.uniform(0.3, 2)},
+            .Quat = {static_cast<float>(1 + Axis[0] / Long), 0,
+                     static_cast<float>(-Axis[2] / Long),
+                     static_cast<float>(Axis[1] / Long)},
+            .Opacity = R.uniform(0.3, 0.95),
+            .Color = R.color()});
+  }
+  return S;
+}
+
 namespace {
 
 HardCase caseOf(std::string Name, std::string Why, splat::Scene S,
@@ -395,6 +437,18 @@ HardCase rollingNearPlane() {
   return C;
 }
 
+HardCase pointing(std::string Name, const std::string &Where, LensModel M) {
+  const splat::Camera View = needleView(M);
+  HardCase C = caseOf(std::move(Name),
+                      "needles of 1,000 to 6,000 px that point at the camera" +
+                          Where + ": the picture has 3 px of them",
+                      pointingNeedles(View, 84), View);
+  C.ExpectedCulls = {}; // the camera is turned
+  C.Cap = 5e-6;
+  C.FoundIn = {"needles-by-plain-sums"};
+  return C;
+}
+
 HardCase unscentedNeedle() {
   HardCase C = caseOf(
       "unscented-needles",
@@ -441,6 +495,13 @@ void addLenses(std::vector<HardCase> &Cases) {
         rollingBeside,   rollingDilation,  rollingNearPlane,
         ownNearPlane})
     Cases.push_back(Make());
+  Cases.push_back(pointing("needles-at-the-camera", "", LensModel::Pinhole));
+  Cases.push_back(pointing("needles-at-opencv", " with OpenCV's distortion",
+                           LensModel::OpenCv));
+  Cases.push_back(
+      pointing("needles-at-a-fisheye", ", a fisheye", LensModel::Fisheye));
+  Cases.push_back(pointing("needles-along-parallel-rays",
+                           ", with parallel rays", LensModel::Orthographic));
 }
 
 } // namespace vorion::test

@@ -13,6 +13,13 @@ splat::Camera lensView(splat::LensModel M, splat::LensCoefficients K = {},
 /// Coefficients of both signs in every place that the model has.
 splat::LensCoefficients someCoefficients(splat::LensModel M);
 
+/// A turned camera for \c pointingNeedles.
+splat::Camera needleView(splat::LensModel M);
+
+/// Needles as long as 1,000 to 6,000 px, of which the picture of \p C has half
+/// a pixel to three, because they point at the camera.
+splat::Scene pointingNeedles(const splat::Camera &C, uint32_t Seed);
+
 /// \p Count Gaussians all around the camera, none so near that it is in them.
 splat::Scene allAround(uint32_t Count, uint32_t Seed, double Scale = 0.15);
 

@@ -13,8 +13,8 @@ namespace {
 /// nothing is for test/render/effects.test.
 splat::RenderPlan planFor(const HardCase &C, const splat::RenderOptions &O,
                           bool Layers) {
-  const splat::ViewFacts Facts = splat::factsOf(
-      C.Scene, splat::makeView(C.View, O), O.nearLimit(), O.byDistance());
+  const splat::ViewFacts Facts =
+      splat::factsOf(C.Scene, splat::makeView(C.View, O), O);
   splat::EffectRequest Flags;
   Flags.Selection = splat::EffectRequest::Mode::Flags;
   return splat::planRender(

@@ -75,8 +75,8 @@ Expected<Finding> judgeRays(splat::Launcher &L, splat::Path P,
   splat::RenderOptions O;
   O.Blending = P;
   O.Order = splat::PixelOrder::Ray;
-  const splat::ViewFacts Facts = splat::factsOf(
-      S.Scene, splat::makeView(S.View, O), O.nearLimit(), O.byDistance());
+  const splat::ViewFacts Facts =
+      splat::factsOf(S.Scene, splat::makeView(S.View, O), O);
   const auto R = splat::render(
       L, splat::planRender(splat::EffectPlan({}, {S.Scene, O, Facts}), O),
       S.Scene, S.View, O, /*KeepPairs=*/false);

@@ -180,57 +180,6 @@ HardCase boxEdges() {
   return C;
 }
 
-/// A window of a picture of 24,000 by 16,000 pixels, far beside the principal
-/// point, through \p Optics.
-HardCase crop(std::string Name, std::string What,
-              const splat::CameraModel &Optics,
-              std::vector<std::string> FoundIn) {
-  HardCase C{std::move(Name),
-             "the principal point 11,000 px beside the picture" +
-                 std::move(What),
-             {},
-             turnedView(frontView(96, 64, 9000)),
-             {}};
-  C.View.Position = {1.7, -0.4, 0.9};
-  C.View.Cx = -11000.25;
-  C.View.Cy = 7000.75;
-  C.View.Optics = Optics;
-  C.Options.Optics = Optics.Model;
-  const bool Parallel = Optics.Model == splat::LensModel::Orthographic;
-  Numbers R(26);
-  for (int I = 0; I < 60; ++I) {
-    const double Z = R.uniform(2, 6);
-    const double Column = R.uniform(2, 94), Row = R.uniform(2, 62);
-    const double Pixel = (Parallel ? 1 : Z) / 9000;
-    std::array<double, 3> At{(Column - C.View.Cx) * Pixel,
-                             (Row - C.View.Cy) * Pixel, Z};
-    if (!Parallel && !Optics.isPinhole()) {
-      const auto Seen = Optics.direction((Column - C.View.Cx) / C.View.Fx,
-                                         (Row - C.View.Cy) / C.View.Fy);
-      for (std::size_t K = 0; K < 3; ++K)
-        At[K] = Z * Seen.value()[K];
-    }
-    add(C.Scene,
-        {.Mean = seenAt(C.View, At[0], At[1], At[2]),
-         .Scale = {Pixel * R.uniform(0.5, 3), Pixel * R.uniform(0.5, 3),
-                   Pixel * R.uniform(0.5, 3)},
-         .Quat = R.turn(),
-         .Opacity = R.uniform(0.3, 0.95),
-         .Color = R.color()});
-  }
-  C.Cap = 5e-6;
-  C.FoundIn = std::move(FoundIn);
-  return C;
-}
-
-/// Lenses that bend at 11,000 px, with every term of theirs.
-const splat::CameraModel Bending{splat::LensModel::OpenCv,
-                                 {-0.06, 0.01, 0.002, -0.001, -0.0007, 0.02,
-                                  0.003, 0.0002, 0.003, -0.0005, -0.002, 0.0004,
-                                  0.00001}};
-const splat::CameraModel BendingFisheye{splat::LensModel::Fisheye,
-                                        {-0.02, 0.004, -0.0006, 0.00002}};
-
 HardCase wide() {
   HardCase C{"one-over-3840x2160",
              "one Gaussian over 8.3 M pixels: each alpha alone, and the sum of "
@@ -258,18 +207,6 @@ void addViews(std::vector<HardCase> &Cases) {
   Cases.push_back(outside());
   Cases.push_back(radiusBeyondInt());
   Cases.push_back(boxEdges());
-  Cases.push_back(crop("crop-of-a-large-picture",
-                       ": f x / z + c cancels, and pixels keep 1e-3 px", {},
-                       {"crop-by-plain-sum", "crop-by-plain-axes"}));
-  Cases.push_back(crop("crop-through-opencv",
-                       ", behind a lens that bends there", Bending,
-                       {"crop-by-plain-squares"}));
-  Cases.push_back(crop("crop-through-fisheye",
-                       ", 75 degrees from a fisheye's axis", BendingFisheye,
-                       {"crop-by-plain-bend"}));
-  Cases.push_back(crop("crop-of-parallel-rays", ", of parallel rays",
-                       {splat::LensModel::Orthographic},
-                       {"crop-by-plain-start"}));
   Cases.push_back(wide());
 }
 
