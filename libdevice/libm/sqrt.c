@@ -29,7 +29,8 @@ double sqrt(double x) {
   const int64_t second =
       (int64_t)(t << 16) +
       (int32_t)((float)(int64_t)(m - t * t) * half_inverse * 0x1p16f);
-  const int64_t rest = (int64_t)((m << 32) - (uint64_t)(second * second));
+  const int64_t rest =
+      (int64_t)((m << 32) - (uint64_t)second * (uint64_t)second);
   uint64_t root =
       (uint64_t)(second << 11) +
       (uint64_t)(int64_t)(int32_t)((float)rest * half_inverse * 0x1p-5f);

@@ -51,8 +51,41 @@ class Program:
         images = "".join(f", {image.parameter} image{n}" for n, image in enumerate(self.images))
         self.text = HEAD.format(images=images) + text + "}\n"
 
+    def results(self, found, texels):
+        """The outputs of each unit, and the lines about what was written beside them. found: all outputs in memory, after a
+        run; texels: those of images."""
+        results = []
+        for each, places in zip(self.units, self.outputs):
+            lines = []
+            for place, size in zip(places, each.output_sizes):
+                beside = (found[place - FENCE:place], found[place + size:place + (size + 127) // 128 * 128 + FENCE])
+                if any((b != FILL).any() for b in beside):
+                    lines.append("wrote beside its output")
+            outputs = [found[p:p + s].tobytes() for p, s in zip(places, each.output_sizes)]
+            results.append((outputs + [texels[image] for image in each.images if image in texels], lines))
+        return results
 
-class Device:
+
+class Runner:
+    """Something that can run a program of units: outputs() gives their outputs, or one of the errors."""
+
+    errors = ()
+
+    def run(self, units):
+        """Lines for each unit. Units that cannot be compiled together are tried apart."""
+        try:
+            found = self.outputs(Program(units))
+        except self.errors as error:
+            if len(units) == 1:
+                return [[f"does not run: {error}"]]
+            middle = len(units) // 2
+            return self.run(units[:middle]) + self.run(units[middle:])
+        return [beside + unit.check(outputs) for unit, (outputs, beside) in zip(units, found)]
+
+
+class Device(Runner):
+    errors = (cl.RuntimeError, cl.LogicError, cl.Error)
+
     def __init__(self, options=()):
         platforms = cl.get_platforms()
         self.context = cl.Context([platforms[0].get_devices()[0]])
@@ -73,24 +106,4 @@ class Device:
                *images)
         cl.enqueue_copy(self.queue, found, target)
         texels = {image: image.read(self.queue, made) for image, made in zip(program.images, images) if image.written}
-        results = []
-        for each, places in zip(program.units, program.outputs):
-            lines = []
-            for place, size in zip(places, each.output_sizes):
-                beside = (found[place - FENCE:place], found[place + size:place + (size + 127) // 128 * 128 + FENCE])
-                if any((b != FILL).any() for b in beside):
-                    lines.append("wrote beside its output")
-            outputs = [found[p:p + s].tobytes() for p, s in zip(places, each.output_sizes)]
-            results.append((outputs + [texels[image] for image in each.images if image in texels], lines))
-        return results
-
-    def run(self, units):
-        """Lines for each unit. Units that cannot be compiled together are tried apart."""
-        try:
-            found = self.outputs(Program(units))
-        except (cl.RuntimeError, cl.LogicError, cl.Error) as error:
-            if len(units) == 1:
-                return [[f"does not run: {error}"]]
-            middle = len(units) // 2
-            return self.run(units[:middle]) + self.run(units[middle:])
-        return [beside + unit.check(outputs) for unit, (outputs, beside) in zip(units, found)]
+        return program.results(found, texels)
