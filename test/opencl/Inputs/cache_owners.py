@@ -21,11 +21,11 @@ def make(name, owner=VICTIM, mode=0o755):
     return path
 
 
-def run(user=VICTIM, **variables):
+def run(user=VICTIM, program=("sample-vecadd",), **variables):
     """Code and output of a program whose environment has these alone."""
     environment = {name: os.environ[name] for name in ("PATH", "OCL_ICD_VENDORS", "VORION_ROOT")}
     environment |= {"TMPDIR": temporary, "VORION_SYSTEM_CACHE": os.path.join(folder, "system")} | variables
-    done = subprocess.run(["sample-vecadd"], env=environment, cwd=folder, user=user, group=user, extra_groups=[],
+    done = subprocess.run(program, env=environment, cwd=folder, user=user, group=user, extra_groups=[],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     return done.returncode, done.stdout
 
@@ -45,9 +45,9 @@ def refused(case, cache, why):
     say(case, code=(code != 0, True), reason=(why in output, True), files=(len(files(cache)), 0))
 
 
-def private(case, why, **variables):
+def private(case, why, **others):
     """The kernel is compiled for this run alone, with a warning, and nothing is left."""
-    code, output = run(**variables)
+    code, output = run(**others)
     say(case, code=(code, 0), output=(output.count("vorion: warning: kernel cache: ") == 1 and why in output, True),
         left=(os.listdir(temporary), []))
 
@@ -67,6 +67,7 @@ def places():
     private("HOME of another user", "belongs to user 12345", HOME=make("theirs", ATTACKER, 0o777))
     private("HOME in a folder that others can write", "can be written by other users",
             HOME=(make("open", 0, 0o777), make("open/home"))[1])
+    private("processes that only look for devices", "/nonexistent: cannot be made", program=("splat", "doctor"))
     home = make("home")
     kept("HOME", os.path.join(home, ".cache/pocl/kcache"), HOME=home)
     shutil.rmtree(os.path.join(home, ".cache"))
