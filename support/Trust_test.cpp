@@ -7,7 +7,9 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <grp.h>
 #include <optional>
+#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -83,6 +85,22 @@ TEST_F(Trust, IsForOneOwnerAndRoot) {
   // Its user and group are in no database: who is in the group is not known.
   ASSERT_EQ(chmod(Theirs.c_str(), 0770), 0);
   EXPECT_NE(whyUntrusted(Theirs, Other), "");
+}
+
+TEST_F(Trust, IsForGroupsOfOneUserAlone) {
+  constexpr uid_t Daemon = 1;
+  const passwd *User = getpwuid(Daemon);
+  const group *Own = getgrgid(Daemon);
+  if (geteuid() != 0 || !User || !Own || User->pw_gid != Daemon ||
+      std::string(User->pw_name) != Own->gr_name || *Own->gr_mem)
+    GTEST_SKIP() << "only root gives files away, to a user with a group";
+  const fs::path Theirs = make("theirs");
+  ASSERT_EQ(chown(Theirs.c_str(), Daemon, Daemon), 0);
+  ASSERT_EQ(chmod(Theirs.c_str(), 0770), 0);
+  EXPECT_EQ(whyUntrusted(Theirs, Daemon), "");
+  ASSERT_EQ(chown(Theirs.c_str(), Daemon, Other), 0);
+  EXPECT_EQ(whyUntrusted(Theirs, Daemon),
+            Theirs.string() + " can be written by other users");
 }
 
 TEST_F(Trust, IsWhatAFolderIsMadeWith) {
