@@ -2,10 +2,13 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <CL/cl_vorion.h>
@@ -46,9 +49,27 @@ static uint64_t file_checksum(const char *path, const void *bytes,
   return add_bytes(pocl_checksum(place, strlen(place)), bytes, size);
 }
 
+/* write(), which fails with EFBIG where a file would grow beyond the limit of
+ * its size (ulimit -f). The signal of that would end the program, whose own
+ * action of it is left alone. */
+static ssize_t write_within_limit(int fd, const char *content, uint64_t size) {
+  sigset_t limit, had;
+  sigemptyset(&limit);
+  sigaddset(&limit, SIGXFSZ);
+  pthread_sigmask(SIG_BLOCK, &limit, &had);
+  const ssize_t written = write(fd, content, size);
+  const int reason = errno;
+  const struct timespec now = {0, 0};
+  if (written < 0 && reason == EFBIG && !sigismember(&had, SIGXFSZ))
+    sigtimedwait(&limit, NULL, &now);
+  pthread_sigmask(SIG_SETMASK, &had, NULL);
+  errno = reason;
+  return written;
+}
+
 int pocl_write_all(int fd, const char *content, uint64_t size) {
   while (size > 0) {
-    const ssize_t written = write(fd, content, size);
+    const ssize_t written = write_within_limit(fd, content, size);
     if (written < 0 && errno == EINTR)
       continue;
     if (written < 0)

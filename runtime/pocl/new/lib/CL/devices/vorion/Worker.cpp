@@ -2,6 +2,7 @@
 #include "Launch.h"
 #include "Messages.h"
 
+#include <csignal>
 #include <set>
 
 extern "C" {
@@ -100,6 +101,12 @@ void Worker::finishBeforeExit() {
 }
 
 void Worker::run() {
+  // What a run writes may meet the limit of a file's size (ulimit -f): an error
+  // of the write, whatever the program does with the signal.
+  sigset_t Limit;
+  sigemptyset(&Limit);
+  sigaddset(&Limit, SIGXFSZ);
+  pthread_sigmask(SIG_BLOCK, &Limit, nullptr);
   for (;;) {
     std::unique_lock Guard(Lock);
     Changed.wait(Guard, [this] { return Ending || !Ready.empty(); });
