@@ -2,9 +2,11 @@
 
 #include "vorion/isasim/Variables.h"
 #include "vorion/support/ClockText.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/Environment.h"
 
 #include <mutex>
+#include <set>
 #include <utility>
 
 using namespace vorion;
@@ -82,11 +84,26 @@ Error DeviceOptions::ofMachine(Error E) const {
   return isasim::ofMachine(std::move(E), !Config.empty(), !Set.empty());
 }
 
+/// A process may open a device several times, which is said once.
+void DeviceOptions::noteIdle(const isasim::Config &Before,
+                             const isasim::Config &After) const {
+  static std::mutex Mutex;
+  static std::set<std::string> Said;
+  const std::lock_guard Held(Mutex);
+  for (const std::string &Idle : isasim::idleSettings(Before, After, Set))
+    if (Said.insert(Idle).second)
+      printDiagnostic("vorion", "note", "VORION_SET", Idle);
+}
+
 Failure DeviceOptions::machine(isasim::Config &C) const {
   if (Failure Failed = readConfig(C))
     return Failed;
+  const isasim::Config Before = C;
   if (!Set.empty())
     if (const auto Done = isasim::setValues(C, Set); !Done)
       return cannotOpen(isasim::inVariable("VORION_SET", Done.error()));
-  return readTime(C);
+  if (Failure Failed = readTime(C))
+    return Failed;
+  noteIdle(Before, C);
+  return {};
 }

@@ -35,6 +35,9 @@ struct DeviceOptions {
 private:
   Failure readConfig(isasim::Config &C) const;
   Failure readTime(isasim::Config &C) const;
+  /// Says what of Set changes nothing.
+  void noteIdle(const isasim::Config &Before,
+                const isasim::Config &After) const;
 };
 
 } // namespace vorion::runtime

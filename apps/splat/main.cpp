@@ -51,7 +51,10 @@ int run(std::vector<std::string> Arguments) {
          [&](const std::string &Set) {
            Device.set("VORION_SET", Set, "--set");
          },
-         "change the Vorion device's configuration (as VORION_SET)")
+         "change the Vorion device's configuration, as cores=16, "
+         "rasterizers=4, "
+         "lanes=32, dram=lpddr5-6400 or any key of vorion-sim "
+         "--print-default-config (as VORION_SET)")
       ->type_name("KEY=VALUE,...");
   App.add_flag_callback("--quiet", splat::hideProgress,
                         "Say nothing of how far a run is");

@@ -3,6 +3,7 @@
 #include "core/IsaTables.h"
 #include "vorion/isasim/MemoryMap.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 using namespace vorion;
@@ -66,6 +67,82 @@ TEST(Config, APresetIsASetOfNumbersThatSingleKeysChange) {
   const Expected<Config> Back = parseConfig(toJson(C), "");
   ASSERT_TRUE(Back) << Back.error().What;
   EXPECT_EQ(toJson(*Back), toJson(C));
+}
+
+/// The default machine, changed.
+Config changed(std::string_view List) {
+  Config C = defaultMachine();
+  const auto Set = setValues(C, List);
+  EXPECT_TRUE(Set) << Set.error().What;
+  return C;
+}
+
+TEST(Config, ShortNamesAndEndsOfKeys) {
+  const auto Same = [](std::string_view Short, std::string_view Whole) {
+    EXPECT_EQ(toJson(changed(Short)), toJson(changed(Whole))) << Short;
+  };
+  Same("lanes=32", "timing.raster.lanes=32");
+  Same("dram=lpddr5-6400", "timing.dram.standard=lpddr5-6400");
+  Same("queue_depth=9", "raster.queue_depth=9");
+  Same("l2.kib=64", "timing.l2.kib=64");
+  Same("preset=vortex-2025,branch_cycles=7",
+       "timing.core.branch_cycles=7,timing.core.preset=vortex-2025");
+  Same("rasterizers=4", "sockets_per_cluster=4");
+  Same("cores=16", "sockets_per_cluster=4");
+  Same("cores=16,machine=scaled", "machine=scaled,sockets_per_cluster=1");
+  Same("cores=8,rasterizers=4", "sockets_per_cluster=4,cores_per_socket=2");
+  Same("cores=6,cores_per_socket=3",
+       "sockets_per_cluster=2,cores_per_socket=3");
+  Config C = defaultMachine();
+  EXPECT_EQ(setValues(C, "rasterizers=3,clusters=2").error().What,
+            "rasterizers is 3, expected a multiple of 2, the clusters");
+  EXPECT_EQ(setValues(C, "cores=6,rasterizers=4").error().What,
+            "cores is 6, expected a multiple of 4, the sockets");
+  EXPECT_EQ(setValues(C, "cores=many").error().What,
+            "cores is 'many', expected a whole number, 1 to 240");
+  EXPECT_EQ(setValues(C, "ways=4").error().What,
+            "'ways' is the end of several keys, expected one of "
+            "timing.l2.ways, timing.llc.ways");
+}
+
+TEST(Config, WhatChangesNothingIsSaidWithTheKeyThatIsWhy) {
+  using Notes = std::vector<std::string>;
+  const auto Idle = [](std::string_view List) {
+    const std::string Timed = fmt::format("timing.enabled=1,{}", List);
+    Config Before = defaultMachine();
+    Before.Timing.Enabled = true;
+    return idleSettings(Before, changed(Timed), Timed);
+  };
+  EXPECT_EQ(Idle("lanes=32"),
+            Notes({"timing.raster.lanes=32 changes no cycle of renders: "
+                   "timing.raster.banks is 16"}));
+  EXPECT_EQ(Idle("lanes=32,raster.banks=32"), Notes());
+  EXPECT_EQ(Idle("lanes=8"), Notes());
+  EXPECT_EQ(Idle("lanes=64"),
+            Notes({"timing.raster.lanes=64 changes no cycle of renders: "
+                   "timing.raster.banks is 16"}));
+  EXPECT_EQ(Idle("raster.banks=64"), Notes());
+  EXPECT_EQ(Idle("raster.lanes=16"),
+            Notes({"timing.raster.lanes=16 changes nothing: the machine has it "
+                   "already"}));
+  EXPECT_EQ(Idle("dcache_ways=2"),
+            Notes({"timing.core.dcache_ways=2 changes no cycle: "
+                   "timing.core.dcache_kib is 0"}));
+  EXPECT_EQ(Idle("dcache_ways=2,dcache_kib=16"), Notes());
+  EXPECT_EQ(Idle("fpu_lanes=4,core.fpu=0"),
+            Notes({"timing.core.fpu_lanes=4 changes no cycle: timing.core.fpu "
+                   "is 0"}));
+  EXPECT_EQ(Idle("dram=lpddr5-6400,fixed_cycles=5"),
+            Notes({"timing.dram.standard=lpddr5-6400 changes no cycle: "
+                   "timing.l2.fixed_cycles is 5"}));
+  EXPECT_EQ(Idle("lanes_per_warp=8,alu_lanes=8"),
+            Notes({"timing.core.alu_lanes=8 changes no cycle: lanes_per_warp "
+                   "is 8"}));
+  // Keys of the run change how it is computed, and nothing that is said.
+  EXPECT_EQ(Idle("host_threads=0"), Notes());
+  // Without the clock no key of it is read.
+  EXPECT_EQ(idleSettings(defaultMachine(), changed("l2.kib=64"), "l2.kib=64"),
+            Notes({"timing.l2.kib=64 changes no cycle: timing.enabled is 0"}));
 }
 
 TEST(Config, AnObjectIsNoKey) {

@@ -3,6 +3,7 @@
 #include "timing/DramChannels.h"
 
 #include <cstring>
+#include <fmt/format.h>
 
 using namespace vorion;
 using namespace vorion::isasim;
@@ -461,6 +462,39 @@ TEST(Clock, QuantumDoesNotMatter) {
     Reports.push_back(toJson(*(*M)->run().Time));
     EXPECT_EQ(Reports.back(), Reports.front()) << Quantum;
   }
+}
+
+TEST_F(ClockTest, KeysThatAreSaidToChangeNoCycleChangeNone) {
+  // Something for every unit of a core, and for every level of memory.
+  const Words Body = repeat(
+      3, {lw(10, 0, 7), encode(Op::RV_SW, {.Rs1 = 8, .Rs2 = 10}), lw(11, 0, 8),
+          encode(Op::RV_MUL, {.Rd = 11, .Rs1 = 6, .Rs2 = 11}),
+          encode(Op::RV_DIV, {.Rd = 11, .Rs1 = 11, .Rs2 = 6}),
+          encode(Op::RV_FADD_S, {.Rd = 1, .Rs1 = 5, .Rs2 = 6}),
+          encode(Op::RV_FDIV_S, {.Rd = 2, .Rs1 = 1, .Rs2 = 6}),
+          encode(Op::RV_FADD_S, {.Rd = 3, .Rs1 = 2, .Rs2 = 1}),
+          encode(Op::RV_SW, {.Rs1 = 7, .Rs2 = 11})});
+  unsigned Said = 0;
+  for (const uint32_t FixedCycles : {0U, 5U}) {
+    Config Base = timed();
+    Base.Timing.L2.FixedCycles = FixedCycles;
+    Settings = Base;
+    const uint64_t Cycles = run(Body).Cycles;
+    for (const TimingParam &P : timingParams())
+      for (const uint32_t Value : {P.Low, P.High}) {
+        const std::string List =
+            fmt::format("timing.{}.{}={}", P.Group, P.Name, Value);
+        Settings = Base;
+        if (P.WordOf || !setValues(Settings, List))
+          continue;
+        const auto Notes = idleSettings(Base, Settings, List);
+        if (Notes.empty())
+          continue;
+        EXPECT_EQ(run(Body).Cycles, Cycles) << Notes.front();
+        ++Said;
+      }
+  }
+  EXPECT_GT(Said, 40U);
 }
 
 } // namespace

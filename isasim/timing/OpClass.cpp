@@ -105,8 +105,7 @@ static Port portOf(OpClass C, const CoreTiming &P) {
   return Port::Alu;
 }
 
-/// How often a unit has to begin for all lanes of a warp.
-static uint32_t passes(Port On, const CoreTiming &P, unsigned Lanes) {
+uint32_t passes(Port On, const CoreTiming &P, unsigned Lanes) {
   const uint32_t AtOnce = On == Port::Alu   ? P.AluLanes
                           : On == Port::Sfu ? P.SfuLanes
                           : On == Port::Lsu ? P.LsuLanes

@@ -43,6 +43,9 @@ struct OpInfo {
   bool IsLight = true;
 };
 
+/// How often a unit has to begin for all \p Lanes of a warp.
+uint32_t passes(Port On, const CoreTiming &Params, unsigned Lanes);
+
 OpClass classOf(uint32_t Word);
 /// By number of the instruction in the program, for warps of \p Lanes.
 std::vector<OpInfo> describeProgram(const CodeTable &Code,

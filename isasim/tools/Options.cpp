@@ -94,7 +94,7 @@ void declareOptions(CLI::App &App, Options &O) {
                            "region"))
       ->type_name("");
   App.add_option("--set", O.Set,
-                 "change the configuration (raster.queue_depth=8; else "
+                 "change the configuration (queue_depth=8, cores=16; else "
                  "VORION_SET)")
       ->type_name("KEY=VALUE,...")
       ->allow_extra_args(false);
@@ -107,7 +107,7 @@ void declareOptions(CLI::App &App, Options &O) {
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
                "print a configuration to start from, and exit");
   App.add_flag("--print-timing-parameters", O.PrintTiming,
-               "print what --time goes by, with sources, and exit");
+               "print what --time goes by, and --set's short names");
   App.add_flag("--time", O.Time,
                "say how long the run takes on the machine (docs/model.md)");
   App.add_option("--clock", O.ClockMhz,

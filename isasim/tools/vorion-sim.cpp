@@ -76,10 +76,15 @@ Expected<std::shared_ptr<const EnergyModel>> makeEnergyModel(const Options &O,
   return std::make_shared<const EnergyModel>(std::move(*Made));
 }
 
+std::string settings(const Options &O) {
+  return O.Set.empty() ? orVariable("", "VORION_SET")
+                       : fmt::format("{}", fmt::join(O.Set, ","));
+}
+
 Expected<Success> changeValues(Config &C, const Options &O) {
+  const Expected<Success> Ok = setValues(C, settings(O));
   if (!O.Set.empty())
-    return setValues(C, fmt::format("{}", fmt::join(O.Set, ",")));
-  const Expected<Success> Ok = setValues(C, orVariable("", "VORION_SET"));
+    return Ok;
   return Ok ? Ok : inVariable("VORION_SET", Ok.error());
 }
 
@@ -103,6 +108,7 @@ Expected<Config> makeConfig(const Options &O, const Config &Default) {
   if (O.OneHart)
     C.Clusters = C.SocketsPerCluster = C.CoresPerSocket = C.WarpsPerCore =
         C.LanesPerWarp = 1;
+  const Config Before = C;
   if (const Expected<Success> Ok = changeValues(C, O); !Ok)
     return Ok.error();
   C.Timing.Enabled |=
@@ -113,6 +119,9 @@ Expected<Config> makeConfig(const Options &O, const Config &Default) {
     C.MaxInstructions = *O.MaxInstructions;
   if (O.Threads)
     C.HostThreads = *O.Threads;
+  if (!O.PrintDefaultConfig)
+    for (const std::string &Idle : idleSettings(Before, C, settings(O)))
+      printDiagnostic("vorion-sim", "note", "", Idle);
   return C;
 }
 
@@ -429,7 +438,7 @@ int mainOf(int Argc, char **Argv) {
     return 0;
   }
   if (O.PrintTiming) {
-    printOut("{}", timingMarkdown());
+    printOut("{}{}", timingMarkdown(), shortKeysMarkdown());
     return 0;
   }
   if (O.PrintTechnology) {

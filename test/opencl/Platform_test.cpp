@@ -48,8 +48,8 @@ TEST_F(Platform, OptionsOpenAnotherMachineAndWrongOnesSayWhy) {
   EXPECT_EQ(open({{"VORION_CLOCK", "on"}}), CL_INVALID_VALUE);
   EXPECT_NE(Said().find("no option 'VORION_CLOCK'"), std::string::npos)
       << Said();
-  EXPECT_EQ(open({{"VORION_SET", "cores=2"}}), CL_DEVICE_NOT_AVAILABLE);
-  EXPECT_NE(Said().find("VORION_SET: unknown key 'cores'"), std::string::npos)
+  EXPECT_EQ(open({{"VORION_SET", "core=2"}}), CL_DEVICE_NOT_AVAILABLE);
+  EXPECT_NE(Said().find("VORION_SET: unknown key 'core'"), std::string::npos)
       << Said();
   EXPECT_EQ(open({{"VORION_CONFIG", "/dev/null"}}), CL_INVALID_PROPERTY);
   EXPECT_NE(Said().find("an empty file"), std::string::npos) << Said();
@@ -74,7 +74,7 @@ TEST_F(Platform, OptionsOpenAnotherMachineAndWrongOnesSayWhy) {
 TEST_F(Platform, DevicesWithoutAContextAreOpenedAnew) {
   ASSERT_EQ(open({}), CL_SUCCESS) << Problem.data();
   EXPECT_EQ(device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(), 8u);
-  EXPECT_EQ(open({{"VORION_SET", "cores=2"}}), CL_DEVICE_NOT_AVAILABLE);
+  EXPECT_EQ(open({{"VORION_SET", "core=2"}}), CL_DEVICE_NOT_AVAILABLE);
   // Without a machine there is no device, until one opens.
   std::vector<cl::Device> Found;
   Chosen.getDevices(CL_DEVICE_TYPE_ALL, &Found);

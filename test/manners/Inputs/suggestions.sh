@@ -20,7 +20,7 @@ try machine vorion-sim k.elf --config protype
 try checker vorion-sim k.elf --kernel add --global 1 --arg buf:4 --check boundz
 try subcommand splat rendr
 try option splat render s.ply --camera c.json
-try beginning vorion-sim k.elf --set cores=3
+try beginning vorion-sim k.elf --set cores_per=3
 try "option begun" splat render s.ply --cam c.json
 try "view begun" splat render s.ply --cameras c.json --view fro
 try "unit begun" splat render s.ply --cameras c.json --exp tab

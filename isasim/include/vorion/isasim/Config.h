@@ -81,10 +81,20 @@ std::string toJson(const Config &C);
 std::string configSchema();
 
 /// Sets values by "KEY=VALUE,...", where a key in an object is written
-/// "raster.queue_depth", and checks the whole. A name that stands for a set of
-/// numbers ("machine", "timing.core.preset") sets all of them but those that
+/// "raster.queue_depth", or as the end of it that no other key has, or by its
+/// short name (machine/ShortKeys.h), and checks the whole. A name that stands
+/// for a set of numbers ("machine", "timing.core.preset") sets all of them but
+/// those that
 /// \p List gives itself. Of a key that it gives twice the last value counts.
 Expected<Success> setValues(Config &C, std::string_view List);
+
+/// The short names as a Markdown table.
+std::string shortKeysMarkdown();
+
+/// What of \p List, which made \p After of \p Before, changes nothing, and
+/// which key is why: a sentence each. Only what is certain for every program.
+std::vector<std::string> idleSettings(const Config &Before, const Config &After,
+                                      std::string_view List);
 
 /// Reads what toJson writes. Missing keys are those of defaultMachine(), or
 /// what a name that stands for a set of numbers says; an unknown key,
