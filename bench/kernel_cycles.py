@@ -4,13 +4,8 @@
 usage: kernel_cycles.py [--machines NAME,...] PROGRAM [ARGUMENT ...]
 
 Runs the program with the clock on, once on each machine, and prints a table of Markdown with a row for each kernel of
-each machine, all launches together. A cycle of a core has one reason (docs/time-report.md); here they are put together:
-  issue    the core issued an instruction      fetch    the next instruction was not there
-  branch   behind a branch, or behind an instruction that sets the active lanes
-  memory   global and local memory, and places among the accesses in flight
-  operand  a result of a unit, or a unit that was busy
-  raster   the rasterizer                      ended    other cores still ran
-  other    start, fences, barriers
+each machine, all launches together. A cycle of a core has one reason (docs/time-report.md); a column has one, or the sum
+of those that it names.
 Needs scripts/env.sh.
 """
 
@@ -24,16 +19,9 @@ import tempfile
 import clocked
 import command_line
 
-REASONS = {
-    "issue": ["issue"],
-    "fetch": ["fetch"],
-    "branch": ["branch", "divergence"],
-    "memory": ["memory", "local", "lsu_queue"],
-    "operand": ["operand", "unit"],
-    "raster": ["raster_full", "raster_wait"],
-    "ended": ["ended"],
-    "other": ["start", "fence", "barrier"],
-}
+REASONS = {", ".join(parts): parts for parts in (
+    ["issue"], ["fetch"], ["branch", "divergence"], ["memory", "local", "lsu_queue"], ["operand", "unit"],
+    ["raster_full", "raster_wait"], ["ended"], ["start", "fence", "barrier"])}
 
 
 def runs_of(command, machine):

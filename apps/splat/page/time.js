@@ -3,12 +3,12 @@
 const { runs } = data; // { name, report, picture }; picture is a data URI or null
 const two = runs.length === 2;
 
-// What a unit did in a cycle; several of the report's reasons are one here.
+// What a unit did in a cycle, by the report's reasons; where several are one here, a line below names them.
 const UNITS = {
   cores: {
     label: 'cores', of: 'cores', reasons: {
       'issues an instruction': ['issue'],
-      'waits for memory': ['memory', 'lsu_queue', 'local', 'fence'],
+      'waits for accesses': ['memory', 'lsu_queue', 'local', 'fence'],
       'waits for an operand or a unit': ['operand', 'unit'],
       'waits for an instruction': ['fetch', 'start'],
       'branches, diverges': ['branch', 'divergence'],
@@ -109,7 +109,8 @@ function drawReasons() {
     },
   });
   const units = rows[0].time[of].length;
-  byId('reasons-note').textContent = `The mean of ${units} ${UNITS[state.unit].label}; a bar is as long as its stage.`;
+  const sums = Object.entries(reasons).filter(([, keys]) => keys.length > 1).map(([label, keys]) => `“${label}” is ${keys.join(' + ')}`);
+  byId('reasons-note').textContent = `The mean of ${units} ${UNITS[state.unit].label}; a bar is as long as its stage. Of the report's reasons, ${sums.join(', ')}.`;
 }
 
 function heatColour(share) {

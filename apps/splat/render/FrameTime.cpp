@@ -97,51 +97,44 @@ double dramMegabytes(const TimeReport &T) {
          T.Host.DramBurstBytes / 1e6;
 }
 
-/// A column of the table: reasons for cycles of cores that belong together.
+/// A column of the table: a reason for cycles of cores, by the report's name
+/// and with the report's figure.
 struct Column {
   std::string_view Name;
-  std::vector<CoreCount> Reasons;
+  CoreCount Reason;
+  std::size_t width() const {
+    return std::max<std::size_t>(8, Name.size() + 1);
+  }
 };
 
-const std::vector<Column> &columns() {
-  static const std::vector<Column> All{
-      {"issue", {CoreCount::Issue}},
-      {"fetch", {CoreCount::Fetch}},
-      {"branch", {CoreCount::Branch, CoreCount::Divergence}},
-      {"memory",
-       {CoreCount::Memory, CoreCount::LsuQueue, CoreCount::Local,
-        CoreCount::Fence}},
-      {"operand", {CoreCount::Operand, CoreCount::Unit}},
-      {"raster", {CoreCount::RasterFull, CoreCount::RasterWait}},
-      {"ended", {CoreCount::Ended}}};
-  return All;
-}
-
-/// Rows for stages, and a last one for \p Whole. A reason for which no core
-/// ever waited has no column.
+/// Rows for stages, and a last one for \p Whole. A reason to which hardly a
+/// cycle went has no column.
 class Table {
 public:
   explicit Table(const TimeReport &Whole) : Whole(Whole) {
-    for (const Column &C : columns())
-      if (share(Whole.Cycles, Whole.Cores, C.Reasons) > 0)
-        Shown.push_back(&C);
+    constexpr double Least = 0.5; // percent
+    for (std::size_t N = 0; N != CountNames<CoreCount>.size(); ++N) {
+      const auto Reason = static_cast<CoreCount>(N);
+      if (share<CoreCount>(Whole.Cycles, Whole.Cores, {Reason}) >= Least)
+        Shown.push_back({CountNames<CoreCount>[N], Reason});
+    }
   }
 
   std::string head() const;
   std::string row(std::string_view Name, const TimeReport &T) const;
 
 private:
-  static constexpr std::size_t Width = 8; ///< of a column of the cores
-
   const TimeReport &Whole;
-  std::vector<const Column *> Shown;
+  std::vector<Column> Shown;
+  /// Of the column of all reasons that have none.
+  static constexpr std::size_t OtherWidth = 8;
 };
 
 std::string Table::head() const {
   std::string Names;
-  for (const Column *C : Shown)
-    Names += fmt::format("{:>{}}", C->Name, Width);
-  Names += fmt::format("{:>{}}", "other", Width);
+  for (const Column &C : Shown)
+    Names += fmt::format("{:>{}}", C.Name, C.width());
+  Names += fmt::format("{:>{}}", "other", OtherWidth);
   return fmt::format("\nmachine: {}\n{:<18}{:>12}{:>7}{:>9} |{:>{}} |{:>15}|\n"
                      "{:<18}{:>12}{:>7}{:>9} |{} |{:>7}{:>7} |{:>9}\n",
                      clockedMachine(Whole), "", "", "", "",
@@ -154,15 +147,16 @@ std::string Table::row(std::string_view Name, const TimeReport &T) const {
   const double FrameCycles = std::max(1.0, static_cast<double>(Whole.Cycles));
   std::string Shares;
   double Other = T.Cycles ? 100 : 0;
-  for (const Column *C : Shown) {
-    const double Share = share(T.Cycles, T.Cores, C->Reasons);
-    Shares += fmt::format("{:>{}.1f}", Share, Width);
+  for (const Column &C : Shown) {
+    const double Share = share<CoreCount>(T.Cycles, T.Cores, {C.Reason});
+    Shares += fmt::format("{:>{}.1f}", Share, C.width());
     Other -= Share;
   }
+  Shares += fmt::format("{:>{}.1f}", std::max(0.0, Other), OtherWidth);
   return fmt::format(
-      "{:<18}{:>12}{:>7.1f}{:>9.3f} |{}{:>{}.1f} |{:>7.1f}{:>7.1f} |{:>9.2f}\n",
-      Name, T.Cycles, 100 * static_cast<double>(T.Cycles) / FrameCycles,
-      milliseconds(T), Shares, std::max(0.0, Other), Width,
+      "{:<18}{:>12}{:>7.1f}{:>9.3f} |{} |{:>7.1f}{:>7.1f} |{:>9.2f}\n", Name,
+      T.Cycles, 100 * static_cast<double>(T.Cycles) / FrameCycles,
+      milliseconds(T), Shares,
       share<RasterCount>(T.Cycles, T.Rasterizers, {RasterCount::Blend}),
       share<RasterCount>(T.Cycles, T.Rasterizers, {RasterCount::Fetch}),
       dramMegabytes(T));
