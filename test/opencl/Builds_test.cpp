@@ -423,4 +423,22 @@ TEST_F(Builds, NoContextWithoutADeviceOfTheType) {
   EXPECT_EQ(Status, CL_DEVICE_NOT_FOUND);
 }
 
+TEST_F(Builds, BinariesThatAreBuiltAgainKeepTheirOwnKernels) {
+  // Their kernels have one name, and once had one place in the cache, too.
+  for (const int Number : {1, 2}) {
+    const cl::Program Source = Device.build(
+        "kernel void f(global int *o) { o[0] = " + std::to_string(Number) +
+        "; }");
+    const std::vector<int32_t> Expected{Number};
+    EXPECT_EQ(resultOf<int32_t>(Source, 1), Expected);
+    const auto Binaries = Source.getInfo<CL_PROGRAM_BINARIES>();
+    const cl::Program Program(Device.context(), {cl::Device(device(), true)},
+                              {Binaries.front()});
+    for (int Time = 0; Time < 2; ++Time) {
+      EXPECT_EQ(build(Program), CL_SUCCESS);
+      EXPECT_EQ(resultOf<int32_t>(Program, 1), Expected) << Time;
+    }
+  }
+}
+
 } // namespace
