@@ -111,6 +111,8 @@ int main(int Count, char **Values) {
     const std::vector<std::string> Arguments(Values + 1, Values + Count);
     if (Arguments.size() == 2 && Arguments.front() == "--print-views")
       return printViews(Arguments.back());
+  Add("effects", "Measures what it saves to compile only what a scene needs",
+      splat::addEffects);
     splat::setCommandLine(Arguments);
     return run(Arguments);
   });

@@ -21,6 +21,7 @@ Runner addConvert(CLI::App &App);
 Runner addDemoScene(CLI::App &App);
 Runner addAccuracy(CLI::App &App);
 Runner addExplore(CLI::App &App);
+Runner addEffects(CLI::App &App);
 Runner addTrain(CLI::App &App);
 Runner addEval(CLI::App &App);
 Runner addCompare(CLI::App &App);

@@ -103,7 +103,7 @@ Expected<Success> checkPictureOptions(const RenderOptions &O) {
   return Success{};
 }
 
-void addDrawOptions(CLI::App &App, DrawArguments &A) {
+void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects) {
   addPictureOptions(App, A.Options);
   addDatapathOptions(App, A.Options);
   addRasterOptions(App, A);
@@ -118,6 +118,8 @@ void addDrawOptions(CLI::App &App, DrawArguments &A) {
   addSize(App, "--ray-window", A.Options.RayWindow, {4, 8, 16},
           "Gaussians that a pixel of --order ray finds each time that it "
           "goes through its list; changes no bit");
+  if (!Effects)
+    return;
   takesSomeOf(
       App.add_option(
           "--effects", A.Effects,

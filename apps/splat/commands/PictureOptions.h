@@ -30,9 +30,9 @@ struct DrawArguments {
   EffectRequest Request;
 };
 
-/// Declares the picture's options, what is given up for time or area, the
-/// paths' own, and --effects.
-void addDrawOptions(CLI::App &App, DrawArguments &A);
+/// Declares the picture's options, what is given up for time or area, and the
+/// paths' own; with \p Effects also --effects.
+void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects = true);
 
 /// Reads \p A's texts; an error is one of usage.
 Expected<Success> parseDrawTexts(DrawArguments &A);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
@@ -49,8 +50,12 @@ std::string filledPage(std::string_view Template,
   return Page;
 }
 
+std::string dataUri(std::string_view Type, const std::string &Bytes) {
+  return fmt::format("data:{};base64,{}", Type, base64(Bytes));
+}
+
 std::string pngUri(const std::string &Bytes) {
-  return "data:image/png;base64," + base64(Bytes);
+  return dataUri("image/png", Bytes);
 }
 
 } // namespace vorion::splat

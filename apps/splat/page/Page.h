@@ -15,7 +15,9 @@ std::string_view chartLibrary();
 std::string filledPage(std::string_view Template,
                        const nlohmann::ordered_json &Data);
 
-/// The PNG \p Bytes as a page names it.
+/// A file's \p Bytes, of the MIME type \p Type, as a page names them.
+std::string dataUri(std::string_view Type, const std::string &Bytes);
+/// The same of a PNG.
 std::string pngUri(const std::string &Bytes);
 
 } // namespace vorion::splat

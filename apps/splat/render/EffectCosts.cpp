@@ -4,8 +4,13 @@
 #include "effects/Registry.h"
 #include "render/FrameTime.h"
 #include "render/OwnProcess.h"
+#include "render/Report.h"
 
+#include <algorithm>
+#include <array>
+#include <ctime>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sstream>
 
 namespace vorion::splat {
@@ -14,11 +19,21 @@ namespace {
 
 struct Figures {
   uint64_t Instructions = 0, Cycles = 0;
-  std::string On; ///< as EffectCosts has it
+  double Seconds = 0; ///< of the host's processors
+  std::string Hash;   ///< of the picture
+  std::string On;     ///< as EffectCosts has it
 };
+
+/// Of this process so far, by all its threads.
+double processorSeconds() {
+  timespec Spent{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &Spent);
+  return double(Spent.tv_sec) + 1e-9 * double(Spent.tv_nsec);
+}
 
 Figures figuresOf(const RenderResult &R) {
   Figures F;
+  F.Hash = pictureHash(R.Picture);
   for (const StageReport &S : R.Stages)
     for (const KernelReport &K : S.Kernels)
       if (K.Counters)
@@ -48,18 +63,22 @@ public:
       if (!D)
         return D.error();
       Launcher L(*D, KernelFolder, {});
+      const double Begin = processorSeconds();
       const auto R = render(L, P, Inputs.Gaussians, View, Inputs.Options,
                             Inputs.KeepPairs);
       if (!R)
         return R.error();
+      const double Seconds = processorSeconds() - Begin;
+      L.recordBuilds();
       const Figures F = figuresOf(*R);
-      return fmt::format("{} {} {}", F.Instructions, F.Cycles, F.On);
+      return fmt::format("{} {} {} {} {}", F.Instructions, F.Cycles, Seconds,
+                         F.Hash, F.On);
     });
     if (!Text)
       return Text.error();
     Figures F;
     std::istringstream Said(*Text);
-    Said >> F.Instructions >> F.Cycles >> std::ws;
+    Said >> F.Instructions >> F.Cycles >> F.Seconds >> F.Hash >> std::ws;
     std::getline(Said, F.On);
     return F;
   }
@@ -88,6 +107,12 @@ EffectCost costOf(const Effect &E, bool Done, const Figures &Asked,
           difference(With.Instructions, Without.Instructions),
           difference(With.Cycles, Without.Cycles),
           {}};
+}
+
+EffectRequest requestOf(EffectRequest::Mode M) {
+  EffectRequest R;
+  R.Selection = M;
+  return R;
 }
 
 double percent(double Part, double Whole) {
@@ -159,6 +184,63 @@ std::string toString(const EffectCosts &Costs) {
     Text += '\n';
   }
   return Text;
+}
+
+Expected<std::vector<ModeCost>>
+measureModes(const DeviceOpener &Clocked, const DeviceOpener &Plain,
+             const std::string &KernelFolder, const EffectInputs &In,
+             const Camera &C, unsigned Runs,
+             const std::function<void(std::string_view)> &Progress) {
+  using Mode = EffectRequest::Mode;
+  constexpr std::array Modes{Mode::Auto, Mode::Flags, Mode::All};
+  const Measurer Timed(Clocked, KernelFolder, In, C);
+  const Measurer Quick(Plain, KernelFolder, In, C);
+  const auto Tell = [&](std::string_view What, Mode M) {
+    if (Progress)
+      Progress(fmt::format("{} {}", What, name(M)));
+  };
+  std::vector<ModeCost> Costs;
+  for (const Mode M : Modes) {
+    Tell("the clock with", M);
+    const auto F = Timed.measure(Timed.plan(requestOf(M)));
+    if (!F)
+      return F.error();
+    if (F->Cycles == 0)
+      return Error{"",
+                   "the frame has no time, expected a Vorion device whose "
+                   "clock runs in all launches",
+                   ExitCode::Usage};
+    Costs.push_back({M, F->Instructions, F->Cycles, F->On, F->Hash, {}});
+  }
+  for (unsigned Run = 0; Run < Runs; ++Run)
+    for (ModeCost &Cost : Costs) {
+      Tell("the host's time with", Cost.Selection);
+      const auto F = Quick.measure(Quick.plan(requestOf(Cost.Selection)));
+      if (!F)
+        return F.error();
+      Cost.Seconds.push_back(F->Seconds);
+    }
+  for (ModeCost &Cost : Costs)
+    std::ranges::sort(Cost.Seconds);
+  return Costs;
+}
+
+std::string verdictOf(const std::vector<ModeCost> &Modes) {
+  const ModeCost &Least =
+      *std::ranges::min_element(Modes, {}, &ModeCost::Cycles);
+  std::vector<std::string> Others;
+  for (const ModeCost &M : Modes)
+    if (&M != &Least)
+      Others.push_back(
+          fmt::format("{} {:.1f} % more", name(M.Selection),
+                      percent(static_cast<double>(M.Cycles - Least.Cycles),
+                              static_cast<double>(Least.Cycles))));
+  const bool Same = std::ranges::all_of(
+      Modes, [&](const ModeCost &M) { return M.Hash == Modes.front().Hash; });
+  return fmt::format("{} takes the fewest cycles, {}: {}; the pictures {}",
+                     name(Least.Selection), Least.Cycles,
+                     fmt::join(Others, ", "),
+                     Same ? "have the same bits" : "differ");
 }
 
 } // namespace vorion::splat

@@ -1,4 +1,5 @@
-/// What each effect costs a frame, by rendering it with and without.
+/// What each effect costs a frame, by rendering it with and without; and what
+/// it costs to choose them otherwise than by the scene.
 #pragma once
 
 #include "effects/EffectPlan.h"
@@ -45,5 +46,34 @@ measureEffects(const DeviceOpener &Open, const std::string &KernelFolder,
 
 /// A line an effect.
 std::string toString(const EffectCosts &Costs);
+
+/// The frame with its effects chosen in one way.
+struct ModeCost {
+  EffectRequest::Mode Selection;
+  uint64_t Instructions = 0, Cycles = 0;
+  std::string On;   ///< the machine that the cycles are of
+  std::string Hash; ///< pictureHash()
+  /// Processor seconds of the host for the frame without the clock, with its
+  /// programs compiled before; one for each run, rising.
+  std::vector<double> Seconds;
+
+  double median() const { return Seconds[Seconds.size() / 2]; }
+};
+
+/// Renders the frame with `auto`, `flags` and `all`, in this order, each time
+/// in a process of its own: once by \p Clocked, which opens the device with its
+/// clock on, and \p Runs times by \p Plain. The runs of the three alternate. To
+/// be called before a device is opened here. An Error if \p Clocked gives no
+/// time.
+Expected<std::vector<ModeCost>>
+measureModes(const DeviceOpener &Clocked, const DeviceOpener &Plain,
+             const std::string &KernelFolder, const EffectInputs &In,
+             const Camera &C, unsigned Runs,
+             const std::function<void(std::string_view)> &Progress);
+
+/// One sentence on \p Modes, which measureModes() gave: which of them takes the
+/// fewest cycles, what the others take more, and whether the pictures are the
+/// same.
+std::string verdictOf(const std::vector<ModeCost> &Modes);
 
 } // namespace vorion::splat

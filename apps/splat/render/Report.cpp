@@ -12,6 +12,7 @@
 #include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
@@ -84,22 +85,26 @@ Json stagesJson(const std::vector<StageReport> &Stages) {
   return All;
 }
 
-/// Of the bits that were computed, whatever file they were written to.
-static std::string resultHash(const RenderRecord &R) {
+static std::string
+hashOf(std::initializer_list<const std::vector<float> *> Results) {
   std::string All;
-  const auto Add = [&All](const std::vector<float> &Values) {
-    All.append(reinterpret_cast<const char *>(Values.data()),
-               Values.size() * sizeof(float));
-  };
-  Add(R.Result.Picture.Render);
-  Add(R.Result.Picture.Alpha);
-  if (R.Back) {
-    const SceneGradients &G = R.Back->Gradients;
-    for (const auto *Values : {&G.Means2d, &G.Conics, &G.Means, &G.Quats,
-                               &G.Scales, &G.Opacities, &G.Sh, &G.Sums})
-      Add(*Values);
-  }
+  for (const std::vector<float> *Values : Results)
+    All.append(reinterpret_cast<const char *>(Values->data()),
+               Values->size() * sizeof(float));
   return fnv1a64(All);
+}
+
+std::string pictureHash(const Image &P) {
+  return hashOf({&P.Render, &P.Alpha});
+}
+
+static std::string resultHash(const RenderRecord &R) {
+  const Image &P = R.Result.Picture;
+  if (!R.Back)
+    return pictureHash(P);
+  const SceneGradients &G = R.Back->Gradients;
+  return hashOf({&P.Render, &P.Alpha, &G.Means2d, &G.Conics, &G.Means, &G.Quats,
+                 &G.Scales, &G.Opacities, &G.Sh, &G.Sums});
 }
 
 Expected<Json> drawnJson(const Camera &View, const RenderOptions &O,

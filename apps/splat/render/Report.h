@@ -45,6 +45,10 @@ Expected<nlohmann::ordered_json> drawnJson(const Camera &View,
                                            const Device &Dev,
                                            const RenderResult &Result);
 
+/// fnv1a64 of the bits that were computed of \p P, whatever file they are
+/// written to.
+std::string pictureHash(const Image &P);
+
 /// JSON array of stages: seconds, kernels with launches and counters.
 nlohmann::ordered_json stagesJson(const std::vector<StageReport> &Stages);
 
