@@ -10,10 +10,16 @@
 #include "vorion/support/Tool.h"
 #include "vorion/support/Version.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -36,6 +42,35 @@ int printViews(const std::string &File) {
   for (const splat::Camera &C : *Cameras)
     printOut("{}\n", C.Name);
   return EXIT_SUCCESS;
+}
+
+constexpr std::string_view HardCases = "hard-cases";
+
+/// Runs the program that has the catalogue of hard cases in place of this one,
+/// with all words of \p Arguments but the command's; returns if it cannot.
+int runHardCases(std::vector<std::string> Arguments) {
+  Arguments.erase(std::ranges::find(Arguments, HardCases));
+  if (!Arguments.empty() && Arguments.front() == "help")
+    Arguments = {"--help"};
+  const std::string Name = fmt::format("splat-{}", HardCases);
+  std::error_code Ignored;
+  const std::string Program =
+      (std::filesystem::read_symlink("/proc/self/exe", Ignored).parent_path() /
+       Name)
+          .string();
+  Arguments.insert(Arguments.begin(), Name);
+  std::vector<char *> Words;
+  Words.reserve(Arguments.size() + 1);
+  for (std::string &Word : Arguments)
+    Words.push_back(Word.data());
+  Words.push_back(nullptr);
+  execv(Program.c_str(), Words.data());
+  return reportError("splat",
+                     {Program,
+                      fmt::format("cannot start: {}, expected the program "
+                                  "that is installed with splat",
+                                  std::strerror(errno)),
+                      ExitCode::InputFile});
 }
 
 int run(std::vector<std::string> Arguments) {
@@ -76,6 +111,8 @@ int run(std::vector<std::string> Arguments) {
   Add("analyze", "Counts what a view of a scene asks of a machine",
       splat::addAnalyze);
   Add("accuracy", "Measures what accuracy costs in time", splat::addAccuracy);
+  Add("effects", "Measures what it saves to compile only what a scene needs",
+      splat::addEffects);
   Add("explore", "Tries machines: frames a second, energy and area",
       splat::addExplore);
   Add("info", "Prints what is in a scene or a capture", splat::addInfo);
@@ -91,6 +128,14 @@ int run(std::vector<std::string> Arguments) {
       splat::addReplay);
   Add("doctor", "Looks for what keeps programs from working here",
       splat::addDoctor);
+
+  App.add_subcommand(std::string(HardCases),
+                     "Shows scenes whose numbers are hard, with and without "
+                     "their guards");
+  if (const CLI::App *Called = calledCommand(App, Arguments);
+      (Called && Called->get_name() == HardCases) ||
+      Arguments == std::vector<std::string>{"help", std::string(HardCases)})
+    return runHardCases(std::move(Arguments));
 
   if (const auto Ended = parseCommandLine(App, std::move(Arguments)))
     return *Ended;
@@ -111,8 +156,6 @@ int main(int Count, char **Values) {
     const std::vector<std::string> Arguments(Values + 1, Values + Count);
     if (Arguments.size() == 2 && Arguments.front() == "--print-views")
       return printViews(Arguments.back());
-  Add("effects", "Measures what it saves to compile only what a scene needs",
-      splat::addEffects);
     splat::setCommandLine(Arguments);
     return run(Arguments);
   });

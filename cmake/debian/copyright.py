@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the packages' copyright file in Debian's machine-readable form: our
-own sources, what LLVM, PoCL and the header-only libraries have in our programs,
+own sources, what LLVM, PoCL and other libraries have in our programs,
 and what the site of the documents has of its theme. Their words are taken from
 the files that they come with.
 
@@ -16,8 +16,8 @@ Upstream-Name: Vorion
 Comment:
  The programs contain code of LLVM, clang and lld (vorion-clang, vorion-link,
  vorion-llc, vorion-mc, vorion-opt, vorion-objdump, libdevice.a), of PoCL (libvorion-pocl.so,
- libvorion-pocl-compiler.so, poclcc, kernel-vorion.bc) with SLEEF and libclc, and of the header-only
- libraries CLI11, JSON for Modern C++ and GLM. PoCL's paths are those of its
+ libvorion-pocl-compiler.so, poclcc, kernel-vorion.bc) with SLEEF and libclc, of RapidCheck
+ (splat-hard-cases), and of the header-only libraries CLI11, JSON for Modern C++ and GLM. PoCL's paths are those of its
  source package, below pocl/. The site of the documents (html/ of vorion-doc)
  contains scripts and styles of Material for MkDocs, and lunr.js in them.
 
@@ -30,8 +30,9 @@ Copyright: 2003-2024 University of Illinois at Urbana-Champaign and LLVM contrib
 License: Apache-2.0-with-LLVM-exception
 """
 
-# A header-only library and the paragraph of its package that stands for all of it.
-LIBRARIES = {"cli11": "libcli11-dev", "nlohmann": "nlohmann-json3-dev", "glm": "libglm-dev"}
+# A library and the paragraph of its package that stands for all of it.
+LIBRARIES = {"cli11": "libcli11-dev", "nlohmann": "nlohmann-json3-dev", "glm": "libglm-dev",
+             "rapidcheck": "librapidcheck-dev"}
 # The same of what the site is made with; where they are missing, no site is packed.
 SITE = {"mkdocs-material": "mkdocs-material", "lunr": "libjs-lunr"}
 

@@ -40,12 +40,23 @@ def wrong_examples(tool, notes):
                 yield f"the example '{command}' has {name[0]}, expected an option that there is"
 
 
-def pages(tool, notes):
-    """(words of the command, its definition, its notes) of each page of a tool, but samples, which have no options."""
+def pages(tool, notes, names):
+    """(words of the command, its definition, its notes) of each page of a tool, but samples, which have no options. A
+    command that is a program of its own has that one's page."""
     name = tool["name"]
     yield [name], tool, notes.get(name, {})
     for command in tool.get("commands", []):
-        yield [name, command["name"]], command, notes.get(f"{name} {command['name']}", {})
+        if f"{name}-{command['name']}" not in names:
+            yield [name, command["name"]], command, notes.get(f"{name} {command['name']}", {})
+
+
+def with_programs(tool, folder, names):
+    """The tool, with the options of those of its commands that are programs of their own."""
+    for command in tool.get("commands", []):
+        program = f"{tool['name']}-{command['name']}"
+        if program in names:
+            command.update(options=definition.read(folder, program)["options"])
+    return tool
 
 
 def main():
@@ -60,8 +71,8 @@ def main():
         # Samples have neither options nor a help; their notes are all that there is.
         sample = name.startswith("sample-")
         tool = ({"name": name, "description": notes[name]["brief"], "options": [], "footer": ""} if sample
-                else definition.read(folder, name))
-        made = list(pages(tool, notes))
+                else with_programs(definition.read(folder, name), folder, names))
+        made = list(pages(tool, notes, names))
         for words, part, said in made:
             others = ["-".join(w) + ".1" for w, _, _ in made if w != words] if len(words) == 1 else [f"{name}.1"]
             also = sorted({*others, *said.get("see", []), *notes.get(name, {}).get("see", [])} - {"-".join(words) + ".1"})

@@ -70,6 +70,8 @@ with open("c.json", encoding="utf-8") as file:
     camera = json.load(file)[0]
 size = camera["height"], camera["width"]
 numpy.savez("upstream.npz", in_v_render=numpy.ones((*size, 3), "f"), in_v_alpha=numpy.zeros(size, "f"))
+splat("effects", *view, "--runs", "1", "--each")
+splat("hard-cases", "--case", "needles", report="hard-cases/hard-cases.json")
 splat("convert", "demo.ply", "s.ply", "--drop-faint", "0.1", "--degree", "1", "-o", "joined.spz")
 splat("demo-scene", "--gaussians", "1000", "-o", "again.ply")
 os.rename("report.json", "made.json")

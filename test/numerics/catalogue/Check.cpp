@@ -44,8 +44,13 @@ private:
                        std::string_view Way, const BrokenKernel &B,
                        const Expected<std::string> &Detected);
   Expected<Success> oracle(const HardCase &C, const Setting &S);
-  Expected<Success> keep(const nlohmann::json &Row);
-  Expected<Success> keepNew(const nlohmann::json &Row);
+  Expected<Success> keep(const nlohmann::json &Row,
+                         const splat::Image *Picture = nullptr);
+  Expected<Success> keepNew(const nlohmann::json &Row,
+                            const splat::Image *Picture = nullptr);
+  /// The row of an earlier run; tells the plan's listener what begins if there
+  /// is none.
+  const nlohmann::json *find(const std::string &Key);
   /// Whether it is this one's turn, of those that are more than the case
   /// itself.
   bool inShare() { return Turn++ % Plan.OneIn == 0; }
@@ -75,7 +80,15 @@ const Judge &Checker::judgeOf(const HardCase &C,
   return *Last;
 }
 
-Expected<Success> Checker::keep(const nlohmann::json &Row) {
+const nlohmann::json *Checker::find(const std::string &Key) {
+  const nlohmann::json *Row = Kept.find(Key);
+  if (!Row && Plan.Progress)
+    Plan.Progress(Key);
+  return Row;
+}
+
+Expected<Success> Checker::keep(const nlohmann::json &Row,
+                                const splat::Image *Picture) {
   const bool Good = Row["broken"].get<std::string>().empty();
   ++Counts.Checked;
   ++(Good ? Counts.Kept : Counts.Failed);
@@ -98,7 +111,9 @@ Expected<Success> Checker::keep(const nlohmann::json &Row) {
                     Row["pixels"].get<uint64_t>());
   else
     Found = fmt::format(" ({})", Row["noticed"].get<std::string>());
-  if (!Good || Verbose)
+  if (Plan.Listener)
+    Plan.Listener(Row, Picture);
+  if ((!Good && !Plan.Listener) || Verbose)
     fmt::print("{}: {}{}\n", Row["key"].get<std::string>(),
                Good ? "kept" : "BROKEN: " + Row["broken"].get<std::string>(),
                Found);
@@ -106,10 +121,11 @@ Expected<Success> Checker::keep(const nlohmann::json &Row) {
   return Success{};
 }
 
-Expected<Success> Checker::keepNew(const nlohmann::json &Row) {
+Expected<Success> Checker::keepNew(const nlohmann::json &Row,
+                                   const splat::Image *Picture) {
   if (auto Done = Kept.add(Row); !Done)
     return Done;
-  return keep(Row);
+  return keep(Row, Picture);
 }
 
 /// Of a picture.
@@ -130,7 +146,7 @@ nlohmann::json pictureRow(const std::string &Key, const HardCase &C, Path P,
 Expected<Success> Checker::setting(const HardCase &C, Path P,
                                    const Setting &S) {
   const std::string Key = C.Name + " " + flagsOf(P, S);
-  if (const nlohmann::json *Row = Kept.find(Key))
+  if (const nlohmann::json *Row = find(Key))
     return keep(*Row);
   const splat::RenderOptions O = turned(C.Options, P, S);
   const auto R = Device.render(C, O, "");
@@ -141,12 +157,12 @@ Expected<Success> Checker::setting(const HardCase &C, Path P,
   else if (!C.MayExceedMemory || S.empty() ||
            R.error().Code != ExitCode::LimitReached)
     V.Broken = R.error().What;
-  return keepNew(pictureRow(Key, C, P, S.size(), V));
+  return keepNew(pictureRow(Key, C, P, S.size(), V), R ? &R->Picture : nullptr);
 }
 
 Expected<Success> Checker::layers(const HardCase &C, Path P) {
   const std::string Key = fmt::format("{} {} layers", C.Name, flagsOf(P, {}));
-  if (const nlohmann::json *Row = Kept.find(Key))
+  if (const nlohmann::json *Row = find(Key))
     return keep(*Row);
   const splat::RenderOptions O = turned(C.Options, P, {});
   const auto Plain = Device.render(C, O, "");
@@ -200,7 +216,7 @@ Expected<Success> Checker::broken(const HardCase &C, Path P,
                                   const BrokenKernel &B) {
   const std::string Key =
       fmt::format("{} {} with {}", C.Name, flagsOf(P, {}), B.Name);
-  if (const nlohmann::json *Row = Kept.find(Key))
+  if (const nlohmann::json *Row = find(Key))
     return keep(*Row);
   const std::string Folder = Scratch + "/" + std::string(B.Name);
   if (auto Written = writeKernels(Folder, B); !Written)
@@ -211,13 +227,14 @@ Expected<Success> Checker::broken(const HardCase &C, Path P,
       rowOf(Key, C.Name, name(P), B,
             R ? Expected<std::string>(
                     judgeOf(C, O).judge(*R, 0, /*OwnOptions=*/true).Broken)
-              : R.error()));
+              : R.error()),
+      R ? &R->Picture : nullptr);
 }
 
 Expected<Success> Checker::oracle(const HardCase &C, const Setting &S) {
   const std::string Key =
       fmt::format("{} {} oracle", C.Name, flagsOf(Path::Raster, S));
-  if (const nlohmann::json *Row = Kept.find(Key))
+  if (const nlohmann::json *Row = find(Key))
     return keep(*Row);
   const splat::RenderOptions O = turned(C.Options, Path::Raster, S);
   OracleVerdict V = compareWithOracle(C, O, Plan.Oracle);
@@ -273,7 +290,7 @@ Expected<Success> Checker::training(const TrainingCase &C, const Way &W,
     Flags += fmt::format(" --simt-sums {}", name(W.Sums));
   const std::string Key =
       C.Name + Flags + (B ? fmt::format(" with {}", B->Name) : "");
-  if (const nlohmann::json *Row = Kept.find(Key))
+  if (const nlohmann::json *Row = find(Key))
     return keep(*Row);
   const std::string Folder = B ? Scratch + "/" + std::string(B->Name) : "";
   if (B)
@@ -316,7 +333,7 @@ Expected<Success> Checker::all(const TrainingCase &C) {
 } // namespace
 
 Expected<CheckCounts> check(const CheckPlan &P, bool Verbose) {
-  auto M = Machine::open();
+  auto M = Machine::open(P.Machine);
   if (!M)
     return M.error();
   auto R = Rows::open(P.RowFile);

@@ -6,7 +6,15 @@
 #include "Machine.h"
 #include "Rows.h"
 
+#include <functional>
+#include <string_view>
+
 namespace vorion::test {
+
+/// Is told a check's row, and the picture that it judged; null if there is
+/// none, as of gradients or of a run that ended early.
+using CheckListener =
+    std::function<void(const nlohmann::json &Row, const splat::Image *Picture)>;
 
 /// What is to be checked, and how much of it.
 struct CheckPlan {
@@ -21,13 +29,18 @@ struct CheckPlan {
   uint32_t OneIn = 1;  ///< of settings and broken kernels
   std::string RowFile; ///< rows are kept there
   std::string Scratch; ///< folder for broken kernels; a temporary one if empty
+  splat::DeviceOptions Machine = {};
+  CheckListener Listener = {}; ///< may be empty
+  /// Is told which check begins; may be empty.
+  std::function<void(std::string_view)> Progress = {};
 };
 
 struct CheckCounts {
   uint32_t Checked = 0, Kept = 0, Failed = 0;
 };
 
-/// Prints a line for every check that fails, and all of them with \p Verbose.
+/// Prints a line for every check that fails, unless \p P has a listener, and
+/// all of them with \p Verbose.
 Expected<CheckCounts> check(const CheckPlan &P, bool Verbose);
 
 } // namespace vorion::test

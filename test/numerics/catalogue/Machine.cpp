@@ -31,8 +31,8 @@ splat::RenderPlan planFor(const HardCase &C, const splat::RenderOptions &O,
 
 } // namespace
 
-Expected<Machine> Machine::open() {
-  auto D = splat::Device::open("");
+Expected<Machine> Machine::open(const splat::DeviceOptions &Options) {
+  auto D = splat::Device::open("", Options);
   if (!D)
     return D.error();
   return Machine(std::move(*D));

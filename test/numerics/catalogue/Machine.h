@@ -9,7 +9,7 @@ namespace vorion::test {
 class Machine {
 public:
   /// The device that `splat render` takes by default.
-  static Expected<Machine> open();
+  static Expected<Machine> open(const splat::DeviceOptions &Options = {});
 
   /// \p KernelFolder as of `splat render --kernels`; empty for splat's own.
   /// \p Layers: with depths, normals and, where they can be, pixel lists.

@@ -1,11 +1,16 @@
-// splat-hard-cases: holds the catalogue of hard cases against its contracts.
+// splat-hard-cases: shows the catalogue of hard cases, and holds it against its
+// contracts. `splat hard-cases` is this program.
 
 #include "Check.h"
 #include "Fuzz.h"
+#include "Show.h"
 #include "Table.h"
 #include "Tool.h"
 #include "TrainingCase.h"
+#include "commands/Progress.h"
+#include "io/ReportHead.h"
 #include "scene/formats/Ply.h"
+#include "vorion/support/CommandLine.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -17,8 +22,15 @@ namespace {
 struct Arguments {
   CheckPlan Plan;
   FuzzPlan Fuzz;
-  bool List = false, Verbose = false, Table = false;
-  std::string Write;
+  bool List = false, Verbose = false, Table = false, Check = false;
+  std::string Write, Out = "hard-cases";
+
+  /// Whether more or less than what is shown is to be checked.
+  bool checksOnly() const {
+    return Check || Plan.Alone || Plan.Random != 0 || Plan.Broken ||
+           Plan.Oracle != 0 || Plan.OneIn != 1 || !Plan.RowFile.empty() ||
+           !Plan.Scratch.empty() || Verbose;
+  }
 };
 
 /// scene.ply and cameras.json of the cases, for `splat render`.
@@ -36,6 +48,12 @@ Expected<Success> write(const Arguments &A) {
       return W;
   }
   return Success{};
+}
+
+/// The plan, which tells a person how far it is.
+CheckPlan withProgress(CheckPlan P) {
+  P.Progress = splat::progress();
+  return P;
 }
 
 Expected<Success> run(const Arguments &A) {
@@ -61,6 +79,8 @@ Expected<Success> run(const Arguments &A) {
     P.RowFile = A.Plan.RowFile;
     return fuzz(P);
   }
+  if (!A.checksOnly())
+    return show(withProgress(A.Plan), A.Out);
   const auto Counts = check(A.Plan, A.Verbose);
   if (!Counts)
     return Counts.error();
@@ -78,17 +98,40 @@ Expected<Success> run(const Arguments &A) {
 } // namespace vorion::test
 
 int main(int Count, char **Values) {
-  CLI::App App("Renders numerically hard cases on both paths and holds them to "
-               "their contracts: each as it stands and, on request, under each "
-               "knob alone, under random combinations of knobs, and with "
-               "broken kernels, which it must notice.",
+  CLI::App App("Shows scenes whose numbers are hard, each with and without the "
+               "guards that it is about, as a table and a page; and holds them "
+               "to their contracts on both paths.",
                "splat-hard-cases");
   vorion::test::Arguments A;
   App.add_option("cases", A.Plan.Cases, "Names; all if none is given");
+  App.add_option_function<std::vector<std::string>>(
+         "--case",
+         [&A](const std::vector<std::string> &Names) {
+           A.Plan.Cases.insert(A.Plan.Cases.end(), Names.begin(), Names.end());
+         },
+         "The same; several times for several")
+      ->allow_extra_args(false)
+      ->option_text("NAME");
+  vorion::writesFolder(
+      App.add_option("--out", A.Out,
+                     "Folder for pictures, index.html and hard-cases.json")
+          ->capture_default_str());
+  App.add_option_function<std::string>(
+         "--set",
+         [&A](const std::string &Set) {
+           A.Plan.Machine.set("VORION_SET", Set, "--set");
+         },
+         "change the Vorion device's configuration (as VORION_SET)")
+      ->type_name("KEY=VALUE,...");
+  App.add_flag_callback("--quiet", vorion::splat::hideProgress,
+                        "Say nothing of how far a run is");
   App.add_flag("--list", A.List, "Print names and reasons instead");
   App.add_option("--write", A.Write,
                  "Write scenes and views below this folder instead");
   App.add_flag("--long", A.Plan.Long, "The long cases too");
+  App.add_flag("--check", A.Check,
+               "Check each case as it stands, and draw nothing; so do all "
+               "options below");
   App.add_flag("--alone", A.Plan.Alone, "Under each knob alone");
   App.add_option("--random", A.Plan.Random,
                  "Under so many random combinations of knobs");
@@ -117,6 +160,9 @@ int main(int Count, char **Values) {
       "Print what --rows has as the table of docs/tables/hard-cases.md "
       "instead");
   App.add_flag("-v,--verbose", A.Verbose, "A line for every check");
+  std::vector<std::string> Words(Values + 1, Values + Count);
+  Words.insert(Words.begin(), "hard-cases");
+  vorion::splat::setCommandLine(std::move(Words));
   return vorion::test::runTool(App, Count, Values,
                                [&A] { return vorion::test::run(A); });
 }
