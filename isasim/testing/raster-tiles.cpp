@@ -2,17 +2,19 @@
 /// simulator makes of them (exponential unit "table", fp32) and the cycles that
 /// its clock gives them, where memory answers after a fixed time: those of the
 /// tests, or of a file that the plugin tile-writer wrote.
-///
-/// usage: isasim-raster-tiles CYCLES [FILE [EVERY]]
 #include "raster/RandomScene.h"
 #include "raster/Rasterizer.h"
 #include "testing/RasterTile.h"
 #include "timing/RasterClock.h"
+#include "vorion/support/CommandLine.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/Tool.h"
 
 #include <bit>
-#include <cstdlib>
+#include <cstdio>
 #include <cstring>
-#include <iostream>
+#include <string>
+#include <vector>
 
 using namespace vorion;
 using namespace vorion::isasim;
@@ -214,40 +216,73 @@ std::vector<RasterTile> testTiles() {
   return All;
 }
 
+struct Arguments {
+  uint32_t Latency = 0;
+  std::string File;
+  uint64_t Every = 1, Random = 0, Seed = 1;
+};
+
+/// The tiles of \p A's file, those that it asks for.
+std::vector<RasterTile> readTiles(const Arguments &A) {
+  std::vector<RasterTile> Chosen;
+  std::FILE *File = std::fopen(A.File.c_str(), "rb");
+  std::mt19937_64 Engine(A.Seed);
+  RasterTile T;
+  for (uint64_t N = 0; File && T.read(File); ++N) {
+    if (A.Random == 0) {
+      if (N % A.Every == 0)
+        Chosen.push_back(T);
+    } else if (Chosen.size() < A.Random) {
+      Chosen.push_back(T);
+      // Each of those so far with the same odds.
+    } else if (const uint64_t Place = Engine() % (N + 1); Place < A.Random) {
+      Chosen[Place] = T;
+    }
+  }
+  if (File)
+    std::fclose(File);
+  return Chosen;
+}
+
+int run(const Arguments &A) {
+  std::vector<RasterTile> All = A.File.empty() ? testTiles() : readTiles(A);
+  if (All.empty())
+    return reportError("isasim-raster-tiles",
+                       {A.File, "has no tiles, expected those of the plugin "
+                                "isasim-tile-writer"});
+  for (RasterTile &T : All)
+    if (!judge(T, A.Latency) || !T.write(stdout))
+      return reportError("isasim-raster-tiles",
+                         {T.What.Name.data(), "cannot be rendered or written, "
+                                              "expected a tile of the plugin "
+                                              "isasim-tile-writer"});
+  return 0;
+}
+
 } // namespace
 
-int main(int Count, char **Arguments) {
-  if (Count < 2 || Count > 4) {
-    std::cerr << "usage: isasim-raster-tiles CYCLES [FILE [EVERY]]\n";
-    return 2;
-  }
-  const auto Latency =
-      static_cast<uint32_t>(std::strtoul(Arguments[1], nullptr, 10));
-  std::vector<RasterTile> All;
-  if (Count == 2) {
-    All = testTiles();
-  } else {
-    const unsigned long Every =
-        Count == 4 ? std::strtoul(Arguments[3], nullptr, 10) : 1;
-    std::FILE *File = std::fopen(Arguments[2], "rb");
-    RasterTile T;
-    for (unsigned long N = 0; File && T.read(File); ++N)
-      if (N % Every == 0)
-        All.push_back(T);
-    if (File)
-      std::fclose(File);
-    if (All.empty()) {
-      std::cerr << "isasim-raster-tiles: error: " << Arguments[2]
-                << ": has no tiles, expected those of the plugin "
-                   "isasim-tile-writer\n";
-      return 3;
-    }
-  }
-  for (RasterTile &T : All)
-    if (!judge(T, Latency) || !T.write(stdout)) {
-      std::cerr << "isasim-raster-tiles: error: " << T.What.Name.data()
-                << ": cannot be rendered or written\n";
-      return 3;
-    }
-  return 0;
+int main(int Count, char **Values) {
+  CLI::App App("Writes tiles with their pixels and cycles to standard output, "
+               "for the rasterizer in SystemVerilog (docs/rtl.md): those of "
+               "its tests, or of a run.",
+               "isasim-raster-tiles");
+  App.footer(std::string(ExitCodeHelp));
+  Arguments A;
+  App.add_option("cycles", A.Latency, "After so many, memory answers")
+      ->required();
+  takesFile(App.add_option("file", A.File,
+                           "What the plugin isasim-tile-writer wrote "
+                           "(default: the tiles of the tests)"));
+  App.add_option("every", A.Every, "Of its tiles one in so many (default 1)")
+      ->check(isBetween(uint64_t{1}, uint64_t{1} << 32));
+  App.add_option("--random", A.Random,
+                 "Of its tiles so many, drawn at random; all if it has fewer")
+      ->check(isBetween(uint64_t{1}, uint64_t{1} << 20));
+  App.add_option("--seed", A.Seed, "For --random (default 1)")
+      ->check(isBetween(uint64_t{0}, MostSeed));
+  return runTool("isasim-raster-tiles", [&] {
+    if (const auto Ended = parseCommandLine(App, {Values + 1, Values + Count}))
+      return *Ended;
+    return run(A);
+  });
 }

@@ -1,9 +1,11 @@
 /// A plugin that writes the tiles of a run, as far as a rasterizer is given
-/// them, to raster-tiles.bin in the current folder.
+/// them, to the file that VORION_RASTER_TILES names, or else to
+/// raster-tiles.bin in the current folder.
 #include "raster/WorkLog.h"
 #include "testing/RasterTile.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Plugin.h"
+#include "vorion/support/Environment.h"
 
 #include <cstring>
 
@@ -14,7 +16,10 @@ namespace {
 
 class TileWriter : public Observer {
 public:
-  TileWriter() : File(std::fopen("raster-tiles.bin", "wb")) {}
+  TileWriter() {
+    const char *Name = environmentVariable("VORION_RASTER_TILES");
+    File = std::fopen(Name ? Name : "raster-tiles.bin", "wb");
+  }
   ~TileWriter() override {
     if (File)
       std::fclose(File);
@@ -51,7 +56,7 @@ private:
     T.write(File);
   }
 
-  std::FILE *File;
+  std::FILE *File = nullptr;
   Machine *Device = nullptr;
 };
 

@@ -106,6 +106,8 @@ Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
   for (const Camera *View : Head.ChosenOn)
     ChosenOn.push_back(View->Name);
   const Json Data{
+      {"verdict", Head.Verdict},
+      {"host", hostTimeJson(Head.Host)},
       {"made", Json::array({Head.Made, madeBy(), hashLine(P.From)})},
       {ClockedMachineKey, std::move(On)},
       {"floor_db", Head.FloorDb},

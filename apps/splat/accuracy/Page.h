@@ -1,6 +1,7 @@
 /// The HTML pages of sweeps: each one file that needs no other and no network.
 #pragma once
 
+#include "accuracy/HostTime.h"
 #include "accuracy/Sweep.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,8 +18,10 @@ std::string_view trainPageTemplate();
 
 /// What the page is told besides the measurements.
 struct PageHead {
-  std::string Made; ///< a line: what was measured
-  double FloorDb;   ///< to begin with
+  std::string Verdict;        ///< the answer, one sentence
+  std::vector<HostTime> Host; ///< may be empty
+  std::string Made;           ///< a line: what was measured
+  double FloorDb;             ///< to begin with
   /// Views that choose the recommended one.
   std::vector<const Camera *> ChosenOn;
 };

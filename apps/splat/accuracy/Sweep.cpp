@@ -114,8 +114,13 @@ Expected<Json> PointMeasurement::measure() {
   if (!Right)
     return Right.error();
   std::vector<std::string> Timed = Target.Chosen.arguments();
-  Timed.emplace_back(Plan.Energy ? "--energy" : "--time");
-  const auto Clocked = run(Timed);
+  Timed.emplace_back("--energy");
+  auto Clocked = run(Timed);
+  // A machine whose clock or DRAM the technology does not know.
+  if (!Clocked && !Plan.Energy && Clocked.error().Code == ExitCode::Usage) {
+    Timed.back() = "--time";
+    Clocked = run(Timed);
+  }
   if (!Clocked)
     return Clocked.error();
   auto Errors = errors(Clocked->Picture, *Right);
@@ -132,8 +137,8 @@ Expected<Json> PointMeasurement::measure() {
              {"cores_cycles", nullptr},
              {"chip_joules", nullptr}};
   Json Spent;
-  if (Plan.Energy) {
-    const Json &Energy = Clocked->Report["energy"];
+  if (const Json Energy = Clocked->Report.value("energy", Json());
+      Energy.is_object()) {
     Times["chip_joules"] = Energy["chip_joules"]["value"];
     for (const char *Key : {"technology", "volts", "joules", "chip_joules"})
       Spent[Key] = Energy[Key];
@@ -337,6 +342,8 @@ candidates(const SweepPlan &P, KeptPoints &Kept,
         return M.error();
       addView(C, *M, View == Views.front());
     }
+    if (!P.Energy)
+      C.Times[static_cast<std::size_t>(TimeAxis::Energy)].reset();
     All.push_back(std::move(C));
   }
   return All;

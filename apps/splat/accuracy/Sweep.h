@@ -21,8 +21,10 @@ struct SweepPlan {
   std::vector<std::string> CommonArguments;
   std::vector<Camera> Views;
   std::vector<Knob> Knobs;
-  bool Cores = true;         ///< the kernels-only path too
-  bool Energy = false;       ///< the chip's joules, too
+  bool Cores = true; ///< the kernels-only path too
+  /// The chip's joules are a cost, and the machine must have them; else they
+  /// are only measured where it has.
+  bool Energy = false;
   unsigned Jobs = 1;         ///< measured at the same time
   unsigned ThumbWidth = 240; ///< of the page's pictures, px
   Origin From;               ///< what all points are made from

@@ -70,10 +70,11 @@ Expected<Success> makeState(const TrainSweepPlan &P,
                     fnv1a64(fmt::format("{}", P.From)));
     Words.insert(Words.end(), {"--resume", "--checkpoint-every", "50",
                                "--checkpoint", Checkpoint});
-    auto Done = runSplat(Words, P.Machine, references(P) + "/state.log");
-    if (Done)
-      std::filesystem::remove(Checkpoint);
-    return Done;
+    const auto Done = runSplat(Words, P.Machine, references(P) + "/state.log");
+    if (!Done)
+      return Done.error();
+    std::filesystem::remove(Checkpoint);
+    return Success{};
   });
 }
 

@@ -244,7 +244,18 @@ function draw() {
   drawDetails(entries, base);
 }
 
+// Seconds of the host for ways to simulate, with the error of their cycles.
+function drawHost() {
+  const seconds = h => h.seconds.length === 0 ? '–' : [Math.min(...h.seconds), Math.max(...h.seconds)].map(s => s.toPrecision(3))
+    .filter((s, n, all) => n === 0 || s !== all[0]).join(' to ') + (h.extrapolated ? ' (extrapolated)' : '');
+  const off = h => h.cycles_error_percent === null ? '–' : `${h.cycles_error_percent.toFixed(2)} %`;
+  byId('host').append(rowOf(['simulation', 'host, s', 'cycles off', ''], 'th'),
+    ...data.host.map(h => rowOf([h.simulation, seconds(h), off(h), h.note])));
+}
+
 function start() {
+  byId('verdict').textContent = data.verdict;
+  drawHost();
   byId('machine').textContent = `All times are of ${data.clocked_machine}.`;
   const choose = (id, choices, read = v => v) => fill(byId(id), choices, value => { state[id] = read(value); draw(); });
   choose('view', [[0, 'all (worst error, sum of times)'], ...data.views.map((v, n) => [n + 1, v])], Number);

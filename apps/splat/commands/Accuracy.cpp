@@ -1,5 +1,7 @@
+#include "accuracy/HostTime.h"
 #include "accuracy/Page.h"
 #include "accuracy/Sweep.h"
+#include "accuracy/Verdict.h"
 #include "commands/AccuracyTrain.h"
 #include "commands/CameraArguments.h"
 #include "commands/Commands.h"
@@ -41,7 +43,7 @@ struct AccuracyArguments {
   std::string AtLeast = "50dB";
   std::vector<std::string> Check, Knobs;
   unsigned Products = 64, ThumbWidth = 240;
-  bool NoCores = false, Energy = false;
+  bool NoCores = false, Energy = false, NoHost = false;
   TrainSweepPlan Train; ///< where a capture is given
 };
 
@@ -95,9 +97,9 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   if (!From)
     return From.error();
   P.From = std::move(*From);
-  P.From["options"] = fmt::format(
-      "{}{}{} --thumb-width {}", fmt::join(P.CommonArguments, " "),
-      P.Cores ? "" : " --no-cores", P.Energy ? " --energy" : "", P.ThumbWidth);
+  P.From["options"] =
+      fmt::format("{}{} --thumb-width {}", fmt::join(P.CommonArguments, " "),
+                  P.Cores ? "" : " --no-cores", P.ThumbWidth);
   return P;
 }
 
@@ -214,6 +216,37 @@ Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
   return Text;
 }
 
+/// The sentence that answers, by all views.
+Expected<std::string> verdict(SweepPlan P, KeptPoints &Kept,
+                              const std::vector<Setting> &All, double FloorDb) {
+  P.Energy = true; // it costs, whether or not it is an axis
+  const auto Measured = candidates(P, Kept, All, pointersTo(P.Views));
+  if (!Measured)
+    return Measured.error();
+  const auto First = readPoint(P, Kept, {Setting(), &P.Views.front()});
+  if (!First)
+    return First.error();
+  return verdictOf(*Measured, FloorDb,
+                   (*First)[ClockedMachineKey].get<std::string>());
+}
+
+/// Views for the host's time: those of \p P, or of a single one and its file's
+/// others a few, so that one can be a sample of the others.
+std::vector<Camera> hostViews(const AccuracyArguments &A, const SweepPlan &P) {
+  constexpr std::size_t Most = 3;
+  std::vector<Camera> Views = P.Views;
+  if (Views.size() == 1 && !hasOwnCameras(A)) {
+    CameraArguments All = A.Cameras;
+    All.Views = {"all"};
+    if (const auto Others = chooseCameras(All, Scene()))
+      for (const Camera &View : *Others)
+        if (View.Name != P.Views.front().Name)
+          Views.push_back(View);
+  }
+  Views.resize(std::min(Views.size(), Most));
+  return Views;
+}
+
 /// All measurements without pictures, and the page.
 Expected<Success> writeResults(const SweepPlan &P, KeptPoints &Kept,
                                const PageHead &Head,
@@ -228,7 +261,10 @@ Expected<Success> writeResults(const SweepPlan &P, KeptPoints &Kept,
     Points.push_back(std::move(*One));
   }
   Json Report = reportHead("splat-accuracy");
-  Report.update({{"made", Head.Made}, {"points", std::move(Points)}});
+  Report.update({{"verdict", Head.Verdict},
+                 {"host", hostTimeJson(Head.Host)},
+                 {"made", Head.Made},
+                 {"points", std::move(Points)}});
   if (auto Written = writeFileAtomically(P.Folder + "/accuracy.json",
                                          jsonText(Report, 1) + "\n");
       !Written)
@@ -292,7 +328,17 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
     if (!All)
       return All.error();
   }
+  auto Answer = verdict(*P, Kept, *All, *Floor);
+  if (!Answer)
+    return Answer.error();
+  const std::vector<Camera> OnHost = hostViews(A, *P);
+  Expected<std::vector<HostTime>> Host = std::vector<HostTime>();
+  if (!A.NoHost)
+    Host = measureHostTime(*P, OnHost, sayOfSweep);
+  if (!Host)
+    return Host.error();
   const PageHead Head{
+      *Answer, *Host,
       fmt::format("{}, views {} (chosen on {}), {}x{}, rules inria, errors "
                   "against the fp64 reference of the same support",
                   P->ScenePath, names(pointersTo(P->Views)), names(V->Choose),
@@ -303,7 +349,10 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   const auto Text = recommendation(*P, Kept, *V, *All, *Floor);
   if (!Text)
     return Text.error();
-  printOut("{}{}/index.html\n", *Text, P->Folder);
+  printOut("{}\n\n{}", *Answer, *Text);
+  if (!A.NoHost)
+    printOut("\n{}", hostTimeText(*Host, OnHost));
+  printOut("{}/index.html\n", escaped(P->Folder));
   return Success{};
 }
 
@@ -319,7 +368,7 @@ Runner addAccuracy(CLI::App &App) {
   addSceneOptions(App, A->Scene);
   App.get_option("scene")->required(false);
   addCameraOptions(App, A->Cameras, /*Several=*/true);
-  takesView(App.add_option("--views", A->Cameras.Views,
+  takesView(App.add_option("--views,--view", A->Cameras.Views,
                            "Views to measure (default: all)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
@@ -342,6 +391,8 @@ Runner addAccuracy(CLI::App &App) {
                  "Most combinations of the fronts' knobs (default 64)")
       ->option_text("N");
   App.add_flag("--no-cores", A->NoCores, "Leave out the kernels-only path");
+  App.add_flag("--no-host", A->NoHost,
+               "Leave out the host's time for simulating in several ways");
   App.add_option("--thumb-width", A->ThumbWidth,
                  "Width of the page's pictures, px (default 240)")
       ->check(isBetween(8U, 4096U))

@@ -167,8 +167,9 @@ Expected<Success> runAgain(const Json &Result,
       After != Result.end() && After->is_number_unsigned())
     if (auto Done = runSplat(upTo(Words, After->get<uint64_t>()), Machine, Log);
         !Done)
-      return Done;
-  return runSplat(Words, Machine, Log);
+      return Done.error();
+  const auto Done = runSplat(Words, Machine, Log);
+  return Done ? Expected<Success>(Success{}) : Done.error();
 }
 
 /// This process's variables are those under which \p Program ran.

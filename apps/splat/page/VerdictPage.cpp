@@ -19,8 +19,9 @@ std::string toString(const AnswerTable &T) {
   }
   const auto Line = [&](const std::vector<std::string> &Cells) {
     std::string Text = fmt::format("{:<{}}", Cells[0], Widths[0]);
-    for (std::size_t C = 1; C < Cells.size(); ++C)
+    for (std::size_t C = 1; C + 1 < Cells.size(); ++C)
       Text += fmt::format("  {:>{}}", Cells[C], Widths[C]);
+    Text += "  " + Cells.back();
     return Text.substr(0, Text.find_last_not_of(' ') + 1) + "\n";
   };
   std::string Text = Line(T.Columns);

@@ -32,7 +32,8 @@ struct AnswerTable {
   std::vector<std::vector<std::string>> Rows; ///< as many cells as columns
 };
 
-/// For a terminal: the first column to the left, the others to the right.
+/// For a terminal: the first and the last column to the left, the others to the
+/// right.
 std::string toString(const AnswerTable &T);
 
 struct VerdictPage {

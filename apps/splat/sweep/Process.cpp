@@ -10,13 +10,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>
+#include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
 namespace vorion::splat {
 
-static std::string lastLine(const std::string &File) {
+std::string lastLine(const std::string &File) {
   const auto Bytes = readFile(File);
   if (!Bytes)
     return {};
@@ -37,24 +39,26 @@ static std::vector<char *> pointersTo(std::vector<std::string> &Words) {
   return Pointers;
 }
 
-/// This process's environment, with what \p Machine was given in place of
-/// variables of the same names.
-static std::vector<std::string> environmentWith(const DeviceOptions &Machine) {
+/// This process's environment, with \p Variables in place of those of the same
+/// names.
+static std::vector<std::string>
+environmentWith(const std::map<std::string, std::string> &Variables) {
   std::vector<std::string> All;
   for (char **Each = environ; *Each; ++Each)
     if (const std::string Text = *Each;
-        !Machine.commandLine().contains(Text.substr(0, Text.find('='))))
+        !Variables.contains(Text.substr(0, Text.find('='))))
       All.push_back(Text);
-  for (const auto &[Name, Text] : Machine.commandLine())
+  for (const auto &[Name, Text] : Variables)
     All.push_back(fmt::format("{}={}", Name, Text));
   return All;
 }
 
-/// How \p Child ended.
-static int waitFor(pid_t Child, const std::function<bool()> &GiveUp) {
+/// How \p Child ended, and what it \p Used.
+static int waitFor(pid_t Child, const std::function<bool()> &GiveUp,
+                   rusage &Used) {
   int Status = 0;
   pid_t Ended = 0;
-  while ((Ended = waitpid(Child, &Status, GiveUp ? WNOHANG : 0)) <= 0) {
+  while ((Ended = wait4(Child, &Status, GiveUp ? WNOHANG : 0, &Used)) <= 0) {
     if (Ended < 0 && errno != EINTR)
       break;
     if (!GiveUp)
@@ -66,40 +70,65 @@ static int waitFor(pid_t Child, const std::function<bool()> &GiveUp) {
   return Status;
 }
 
-Expected<Success> runSplat(const std::vector<std::string> &Arguments,
-                           const DeviceOptions &Machine,
-                           const std::string &LogFile,
-                           const std::function<bool()> &GiveUp) {
-  std::vector<std::string> Words{"splat"};
-  Words.insert(Words.end(), Arguments.begin(), Arguments.end());
-  std::vector<std::string> Environment = environmentWith(Machine);
+static double seconds(const timeval &T) {
+  return static_cast<double>(T.tv_sec) + 1e-6 * static_cast<double>(T.tv_usec);
+}
 
+Expected<ProcessEnd>
+runProgram(std::vector<std::string> Words,
+           const std::map<std::string, std::string> &Variables,
+           const std::string &OutFile, const std::string &LogFile,
+           const std::function<bool()> &GiveUp) {
+  std::vector<std::string> Environment = environmentWith(Variables);
   posix_spawn_file_actions_t Actions;
   posix_spawn_file_actions_init(&Actions);
-  posix_spawn_file_actions_addopen(&Actions, STDOUT_FILENO, LogFile.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  posix_spawn_file_actions_adddup2(&Actions, STDOUT_FILENO, STDERR_FILENO);
+  const auto Open = [&Actions](int Descriptor, const std::string &File) {
+    posix_spawn_file_actions_addopen(&Actions, Descriptor, File.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  };
+  Open(STDOUT_FILENO, OutFile);
+  if (LogFile == OutFile)
+    posix_spawn_file_actions_adddup2(&Actions, STDOUT_FILENO, STDERR_FILENO);
+  else
+    Open(STDERR_FILENO, LogFile);
   // What another thread opens at this moment is not for it.
   posix_spawn_file_actions_addclosefrom_np(&Actions, STDERR_FILENO + 1);
   pid_t Child = 0;
   const int Problem =
-      posix_spawn(&Child, "/proc/self/exe", &Actions, nullptr,
+      posix_spawn(&Child, Words.front().c_str(), &Actions, nullptr,
                   pointersTo(Words).data(), pointersTo(Environment).data());
   posix_spawn_file_actions_destroy(&Actions);
   if (Problem != 0)
     return Error{"",
-                 fmt::format("cannot start splat: {}, expected a machine with "
+                 fmt::format("cannot start {}: {}, expected a machine with "
                              "room for a process",
-                             std::strerror(Problem)),
+                             Words.front(), std::strerror(Problem)),
                  ExitCode::LimitReached};
-  const int Status = waitFor(Child, GiveUp);
-  if (WIFEXITED(Status) && WEXITSTATUS(Status) == 0)
-    return Success{};
-  return Error{
-      "",
-      fmt::format("'{}' failed: {}", fmt::join(Words, " "), lastLine(LogFile)),
-      WIFEXITED(Status) ? static_cast<ExitCode>(WEXITSTATUS(Status))
-                        : ExitCode::Internal};
+  rusage Used{};
+  const int Status = waitFor(Child, GiveUp, Used);
+  if (!WIFEXITED(Status))
+    return Error{"",
+                 fmt::format("'{}' was ended by a signal: {}",
+                             fmt::join(Words, " "), lastLine(LogFile)),
+                 ExitCode::Internal};
+  return ProcessEnd{static_cast<ExitCode>(WEXITSTATUS(Status)),
+                    seconds(Used.ru_utime) + seconds(Used.ru_stime)};
+}
+
+Expected<ProcessEnd> runSplat(const std::vector<std::string> &Arguments,
+                              const DeviceOptions &Machine,
+                              const std::string &LogFile,
+                              const std::function<bool()> &GiveUp) {
+  std::vector<std::string> Words{"/proc/self/exe"};
+  Words.insert(Words.end(), Arguments.begin(), Arguments.end());
+  auto Ended =
+      runProgram(Words, Machine.commandLine(), LogFile, LogFile, GiveUp);
+  if (Ended && Ended->Code != ExitCode::Ok)
+    return Error{"",
+                 fmt::format("'splat {}' failed: {}", fmt::join(Arguments, " "),
+                             lastLine(LogFile)),
+                 Ended->Code};
+  return Ended;
 }
 
 } // namespace vorion::splat

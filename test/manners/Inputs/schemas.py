@@ -82,7 +82,7 @@ splat("compare", "--pairs", "raster.npz", "raster.npz")
 splat("gradients", *view, "--upstream", "upstream.npz", "-o", "g.npz")
 splat("train", capture, "-o", "t.ply", "--iterations", "2", "--time", "--time-every", "1", "--score-every", "1")
 splat("eval", "t.ply", capture)
-splat("accuracy", *view[:3], "--out", "accuracy", "--knobs", "sh-degree", "--no-cores", report="accuracy/accuracy.json")
+splat("accuracy", *view[:3], "--out", "accuracy", "--knobs", "sh-degree", "--no-cores", "--no-host", report="accuracy/accuracy.json")
 splat("accuracy", "--train", capture, "--out", "training", "--iterations", "1", "--seeds", "1", "--score-every", "1",
       "--time-every", "1", report="training/training.json")
 with open("space.json", "w", encoding="utf-8") as file:
