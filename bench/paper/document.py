@@ -17,7 +17,7 @@ a page says [what would make them hold](paper/changes.md).
 | | |
 |---|---|
 | machines | the paper's text allows two cores: `prototype` and `scaled` have the core `vortex-5stage`, `prototype-forwarding` and `scaled-forwarding` the core `forwarding` ([model.md](model.md#machines-that-have-a-name)). No parameter is fitted to a result |
-| workloads | the paper names no scene, resolution or kernel for its rates. Ours were chosen before measuring: 960x544, two of the scenes also 1920x1088, INRIA's rules, support `exact`. What is not measured is named |
+| workloads | for its rates the table in the paper's figure 9 names the scene Train, which we do not have. Nothing names a resolution, a number of Gaussians or a kernel. Ours were chosen before measuring: 960x544, two of the scenes also 1920x1088, INRIA's rules, support `exact`. What is not measured is named |
 | a frame | from projecting to the finished picture, with its launches and small copies, without uploading a scene or reading the picture back |
 | *serial* | one frame after the other |
 | *overlapped* | a frame in the time of the longest of the paper's three stages. This is a bound: it charges nothing for stages that use memory at the same time, and with queues of four commands `--overlap` reaches little of it ([rates](paper/rates.md)) |
@@ -31,7 +31,7 @@ A view reaches a figure if it has at least as much; "about" is within a factor o
 | {IF} | some do, and they are named |
 | {NOT} | none does, on either core |
 | {DEPENDS} | some view on one core does, and none on the other |
-| {NOT_COMPARABLE} | some do: the figure is a rate, which a workload has, and the paper names none |
+| {NOT_COMPARABLE} | some or all do: the figure is a rate, and a rate depends on the size of the pictures and the number of Gaussians, which the paper does not say |
 
 Power and area are estimated, not measured ([energy.md](energy.md)): a claim about them holds if
 even the 95 % of the interval keep to it, does not hold if even the 5 % do not, and is open

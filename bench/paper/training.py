@@ -1,8 +1,11 @@
 """Training: iterations with the rasterizer and by kernels alone, by stage, by clock and by rasterizers."""
 
 import dataclasses
+import math
 import os
+import random
 import statistics
+import struct
 from dataclasses import dataclass
 
 import machines
@@ -18,7 +21,10 @@ CAPTURES = {
     "carving_colmap": ((), (4,)),
     "desk_colmap": (("--exclude", "input_0001"), (4,)),
 }
-DEFAULT_CAPTURES = ("chair_synthetic", "carving_colmap")
+# A capture with so many points to begin with, at its smallest size, of which no kernels are timed: rates follow the number of
+# Gaussians. The state is that after a few iterations, because the clock hardly depends on how far a training is.
+MANY = {"carving_colmap-600000": ("carving_colmap", 600_000, 10)}
+DEFAULT_CAPTURES = ("chair_synthetic", "carving_colmap", *MANY)
 SHARED = os.path.join("..", "shared", "data", "captures")
 TIMED = 3  # iterations after the state, each of another view; at a capture's larger sizes one, which takes as long
 # The kernels' choices of tile and group. The way back has groups of 16 whatever the way forward has, and keeps a tile in local
@@ -55,10 +61,18 @@ class Capture:
     path: str     # what is trained from
     options: tuple
     scales: tuple
+    after: int = 0  # iterations before those that are timed; 0: as many as for other captures
 
     @classmethod
     def named(cls, name, folder):
-        """One of CAPTURES, or any folder; what has to be written for it goes into `folder`."""
+        """One of CAPTURES or MANY, or any folder; what has to be written for it goes into `folder`."""
+        if name in MANY:
+            of, points, after = MANY[name]
+            one = cls.named(of, folder)
+            path = one.path if not one.is_there() else os.path.relpath(
+                _with_points(one.source, os.path.join(folder, "captures", name), points), scenes.ROOT)
+            return dataclasses.replace(one, name=name, path=path, after=after,
+                                       options=(*one.options, "--max-gaussians", str(points)))
         if name not in CAPTURES:
             path = os.path.abspath(name)
             return cls(os.path.basename(os.path.normpath(name)), path, path, (), (1,))
@@ -82,6 +96,33 @@ def _with_one_held_out(source, folder):
         link = os.path.join(folder, part)
         if not os.path.lexists(link):
             os.symlink(os.path.realpath(os.path.join(source, part)), link)
+    return folder
+
+
+def _with_points(source, folder, count):
+    """Links to a capture of COLMAP with `count` points: the capture's own, in turn, each a little aside."""
+    source = os.path.join(scenes.ROOT, source)
+    os.makedirs(os.path.join(folder, "sparse"), exist_ok=True)
+    for part in ("images", os.path.join("sparse", "cameras.bin"), os.path.join("sparse", "images.bin")):
+        link = os.path.join(folder, part)
+        if not os.path.lexists(link):
+            os.symlink(os.path.realpath(os.path.join(source, part)), link)
+    with open(os.path.join(source, "sparse", "points3D.bin"), "rb") as file:
+        data = file.read()
+    own, at = [], 8
+    for _ in range(struct.unpack_from("<Q", data)[0]):
+        _, *place, red, green, blue, error, track = struct.unpack_from("<Q3d3BdQ", data, at)
+        own.append((place, (red, green, blue)))
+        at += struct.calcsize("<Q3d3BdQ") + 8 * track
+    middle = [statistics.median(place[k] for place, _ in own) for k in range(3)]
+    aside = 0.1 * statistics.median(math.dist(place, middle) for place, _ in own)
+    drawn = random.Random(1)
+    with open(os.path.join(folder, "sparse", "points3D.bin"), "wb") as file:
+        file.write(struct.pack("<Q", count))
+        for n in range(count):
+            place, colour = own[n % len(own)]
+            moved = [x + (drawn.gauss(0, aside) if n >= len(own) else 0) for x in place]
+            file.write(struct.pack("<Q3d3BdQ", n + 1, *moved, *colour, 0, 0))
     return folder
 
 
@@ -317,7 +358,7 @@ def _on(store, state, scale, prototype, choices):
     large = summary(scaled)
     is_smallest = scale == state.capture.scales[0]
     others = store.those_there({(sums, c): summed(state, scale, prototype, sums, c) for sums, tried in OTHER_SUMS.items()
-                                if is_smallest or sums not in ONLY_SMALLEST for c in tried}, TITLE)
+                                if choices and (is_smallest or sums not in ONLY_SMALLEST) for c in tried}, TITLE)
     row = compared(with_it, without)
     return {**row, "slow_its": 1e3 / mean(slow, r.frame_ms),
             "slow_command": slow["command"],
@@ -329,11 +370,12 @@ def _on(store, state, scale, prototype, choices):
 def row_of(store, capture, scale, iterations):
     """All choices of the kernels are tried at the first scale on the first machine, and those that are fastest there on the
     other and at the other scales."""
+    iterations = capture.after or iterations
     state = State(capture, iterations, store.folder)
     trained, = store.all([state], TITLE)
     first, *others = machines.PROTOTYPES
-    at_first, with_it, scaled = _on(store, state, capture.scales[0], first, CHOICES)
-    best, found = _best(at_first), at_first
+    at_first, with_it, scaled = _on(store, state, capture.scales[0], first, () if capture.after else CHOICES)
+    best, found = () if capture.after else _best(at_first), at_first
     if scale != capture.scales[0]:
         found, with_it, scaled = _on(store, state, scale, first, best)
     row = {"scene": capture.name, "view": f"{'x'.join(map(str, with_it['resolution']))} after {iterations}",

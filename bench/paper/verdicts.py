@@ -36,16 +36,17 @@ def _on_one(rows, value, good):
 def verdict(rows, value, good, rate=False, condition="the view is"):
     """The verdict on rows of one machine, or of several that have the two cores.
 
-    DEPENDS: some view of one machine reaches the figure and none of the other does. Else HOLDS if every view does, NOT if
-    none does. If some do: NOT_COMPARABLE for a rate, which is the workload's and the paper names none; IF with the views
-    for another figure."""
+    NOT if no view reaches the figure; DEPENDS if some view of one machine does and none of the other. Else NOT_COMPARABLE for
+    a rate: it is the workload's, and of the paper's nobody knows the size of the pictures and the number of Gaussians, so
+    that a smaller one than ours would have reached it, too. Of other figures HOLDS if every view reaches it, else IF with
+    the views that do."""
     kinds = [_on_one(of, value, good) for of in by_machine(rows).values()]
     if NOT in kinds:
         return NOT if set(kinds) == {NOT} else DEPENDS
-    if set(kinds) == {HOLDS}:
-        return HOLDS
     if rate:
         return NOT_COMPARABLE
+    if set(kinds) == {HOLDS}:
+        return HOLDS
     return f"{IF} {condition} " + "; ".join(_named(machine, of, value, good) for machine, of in by_machine(rows).items())
 
 
@@ -76,7 +77,7 @@ def ratios(rows, value, paper):
 
 def claim(what, paper, rows, value, good, *, unit="", number=None, bound="", rate=False, condition="the view is", reads=None):
     """A claim about a figure of each view, or None if no view was measured. number: the paper's, for the ratio. rate:
-    whether the figure is one that a workload has, of which the paper names none."""
+    whether the figure is one that a workload has."""
     if not rows:
         return None
     best = max(rows, key=value)

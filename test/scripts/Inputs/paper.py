@@ -63,6 +63,8 @@ def check_verdicts():
     assert said(6, rows) == verdicts.NOT
     assert said(3, rows) == "holds if the view is b y on `p` (1 of 2)"
     assert said(3, rows, rate=True) == verdicts.NOT_COMPARABLE
+    # Every view may reach a rate, and another workload not.
+    assert said(1, rows) == verdicts.HOLDS and said(1, rows, rate=True) == verdicts.NOT_COMPARABLE
     # The other core: slower, so that no view reaches 3.
     slower = [{**row, "machine": "q", "v": row["v"] / 2} for row in rows]
     assert said(3, rows + slower) == verdicts.DEPENDS and said(3, slower + rows, rate=True) == verdicts.DEPENDS
