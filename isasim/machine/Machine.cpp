@@ -98,7 +98,7 @@ RunResult Machine::run(uint32_t LaunchBlock) {
     read(LaunchBlock, std::as_writable_bytes(std::span(&Launch, 1)));
   const RunMemory Memory = PImpl->memoryFor(LaunchBlock, Launch);
   if (const Expected<Success> Ok = PImpl->Storage->beginRun(Memory); !Ok) {
-    PImpl->Running = false;
+    PImpl->Budget.endRun();
     R.End = Outcome::LimitReached;
     R.Report = Ok.error().What + "\n";
     return R;
