@@ -134,7 +134,7 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   return Result;
 }
 
-Expected<Success> Memory::beginRun(RunMemory Run) {
+Expected<Success> Memory::beginRun(const RunMemory &Run) {
   endRun();
   if (shiftOf(Run.StackBytes) != OwnStackShift) {
     Expected<Mapping> Large = Mapping::make(onHost(Run.Stacks, Run.StackBytes));

@@ -49,7 +49,7 @@ public:
   /// Maps memory as \p Run needs it until endRun(). Stacks of another size than
   /// the machine's are zero, and cover the end of global memory, if that
   /// reaches so far. Errors: the host has no memory for them.
-  Expected<Success> beginRun(RunMemory Run);
+  Expected<Success> beginRun(const RunMemory &Run);
   void endRun();
 
   /// What core \p Core can reach. Valid until the next load(), beginRun() or

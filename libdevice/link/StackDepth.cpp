@@ -20,7 +20,7 @@ namespace {
 struct Node {
   uint64_t Frame = 0;
   bool Repeats = false;
-  std::vector<std::size_t> Callees{}; ///< numbers of nodes
+  std::vector<std::size_t> Callees; ///< numbers of nodes
 };
 
 /// What the deepest path from a node on needs.
@@ -201,7 +201,7 @@ std::size_t Program::nodeAt(uint32_t Address) {
   const auto [Found, New] = NodeOf.emplace(Address, Nodes.size());
   if (New)
     // Until its record comes.
-    Nodes.push_back({.Repeats = true});
+    Nodes.emplace_back().Repeats = true;
   return Found->second;
 }
 
@@ -214,9 +214,10 @@ bool Program::readFunctions() {
     At += sizeof(Record);
     if ((Stacks.sh_size - At) / sizeof(uint32_t) < Record.num_callees)
       return false;
-    Node Function{.Frame = Record.frame_bytes,
-                  .Repeats = (Record.flags &
-                              (VX_STACK_INDIRECT | VX_STACK_REPEATS)) != 0};
+    Node Function;
+    Function.Frame = Record.frame_bytes;
+    Function.Repeats =
+        (Record.flags & (VX_STACK_INDIRECT | VX_STACK_REPEATS)) != 0;
     if (Record.flags & VX_STACK_INDIRECT)
       Function.Callees.push_back(0);
     for (uint32_t N = 0; N != Record.num_callees; ++N, At += sizeof(uint32_t)) {
