@@ -205,7 +205,7 @@ std::size_t readSweep(Bytes Input) {
   KeptPoints Kept = keptPoints(P, requireOneLine);
   const std::size_t Missing = missing(P, Kept, Points).size();
   const auto Measured = candidates(P, Kept, Settings, {&P.Views.front()});
-  const auto Page = pageOf(P, Kept, {"", 50, {}}, Settings);
+  const auto Page = pageOf(P, Kept, {"", {}, "", 50, {}}, Settings);
   require(static_cast<bool>(Measured) == (Missing == 0));
   require(static_cast<bool>(Page) == (Missing == 0));
   if (Measured)
