@@ -36,6 +36,7 @@ TEST(Allocator, TheEndsDoNotMeet) {
   EXPECT_EQ(A.allocate(128, Allocator::End::High), 3968u);
   // Where only the other end's place has room, it is taken.
   EXPECT_EQ(A.allocate(2816, Allocator::End::High), 128u);
+  EXPECT_EQ(A.freeBytes(), 0u);
 }
 
 TEST(Allocator, LooksOnlyBelowALimit) {
@@ -44,7 +45,7 @@ TEST(Allocator, LooksOnlyBelowALimit) {
   EXPECT_EQ(A.allocate(128, Allocator::End::High), 0x8f80u);
   EXPECT_EQ(A.allocate(128, Allocator::End::High, 0x8000), 0x1f80u);
   EXPECT_EQ(A.allocate(0x1000, Allocator::End::High, 0x8000), std::nullopt);
-  EXPECT_EQ(A.freeBytes(), 0u);
+  EXPECT_EQ(A.freeBytes(), 0x2000u - 2 * 128);
 }
 
 TEST(Allocator, TwoRangesAreNotOne) {

@@ -84,9 +84,13 @@ Error DeviceOptions::ofMachine(Error E) const {
   return isasim::ofMachine(std::move(E), !Config.empty(), !Set.empty());
 }
 
-/// A process may open a device several times, which is said once.
+/// A process may open a device several times, which is said once. Who asks for
+/// no clock wants to hear of no cycles.
 void DeviceOptions::noteIdle(const isasim::Config &Before,
                              const isasim::Config &After) const {
+  if (const auto Clock = ClockText::parse(Time);
+      Clock && Clock->When == ClockText::Runs::Never)
+    return;
   static std::mutex Mutex;
   static std::set<std::string> Said;
   const std::lock_guard Held(Mutex);

@@ -125,9 +125,10 @@ TEST(Memory, LanesMayReachDifferentRegions) {
   for (const ExecTable *Table : allTables()) {
     WarpRunner R(*Table, {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11}),
                           encode(Op::RV_LW, {.Rd = 12, .Rs1 = 10})});
+    const Lanes16 Tops = stackTops(R.Shape);
     Lanes16 Addresses, Values;
     for (unsigned L = 0; L != MaxLanes; ++L) {
-      const uint32_t Bases[] = {Buffer, VX_LOCAL_BASE, VX_STACK_TOP - 4096,
+      const uint32_t Bases[] = {Buffer, VX_LOCAL_BASE, Tops[L] - 4096,
                                 VX_IMAGE_BASE + 0x10000};
       Addresses[L] = Bases[L % 4] + L * 4;
       Values[L] = 1000 + L;

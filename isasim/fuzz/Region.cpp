@@ -83,7 +83,7 @@ std::shared_ptr<const Image> counting(int32_t More) {
   ElfOptions O;
   O.Segments.push_back(
       {VX_IMAGE_BASE, PF_R | PF_X,
-       program({lui(7, VX_GLOBAL_BASE), lui(12, Data), lw(10, 0, 12),
+       program({lui(7, VX_GLOBAL_BASE + 0x1000), lui(12, Data), lw(10, 0, 12),
                 addi(10, 10, More), sw(10, 0, 12), sw(10, 0, 7),
                 csrw(Csr::GTag, 10), csrw(Csr::Push, 0), lui(13, 0x80000),
                 addi(13, 13, 8), csrw(Csr::TileShape, 13),

@@ -2,6 +2,7 @@
 #include "machine/ConfigKeys.h"
 #include "machine/KeyLimits.h"
 #include "machine/ShortKeys.h"
+#include "vorion/support/Json.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
@@ -172,7 +173,7 @@ Expected<Success> setValues(Config &C, std::string_view List) {
 
 static std::string textOf(const Key &K, const Config &C) {
   const auto Value = valueOf(K, C);
-  return Value.is_string() ? Value.get<std::string>() : Value.dump();
+  return Value.is_string() ? Value.get<std::string>() : jsonText(Value);
 }
 
 std::vector<std::string> idleSettings(const Config &Before, const Config &After,

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+
 namespace vorion::isasim {
 namespace {
 
@@ -16,16 +18,20 @@ using namespace testing;
 
 constexpr uint32_t Data = VX_IMAGE_BASE + 0x1000;
 constexpr uint32_t Buffer = 0x100000;
+constexpr int32_t StackShift = std::countr_zero(Config().StackBytes);
 
 /// Adds up what the run before has left in memory, a raster CSR, the image's
-/// data and a stack, and leaves the sum and \p More in each.
+/// data and the lane's stack, and leaves the sum and \p More in each.
 std::shared_ptr<const Image> sums(int32_t More) {
   constexpr auto Csr = raster::Csr::Output;
   ElfOptions O;
   O.Segments.push_back(
       {VX_IMAGE_BASE, PF_R | PF_X,
        program({lw(10, 0, 7), csrr(11, Csr), lui(12, Data), lw(13, 0, 12),
-                lui(14, VX_STACK_TOP - 0x1000), lw(15, 0, 14),
+                lui(14, VX_STACK_TOP - 0x1000), csrr(16, CSR_MHARTID),
+                encode(Op::RV_SLLI, {.Rd = 16, .Rs1 = 16, .Imm = StackShift}),
+                encode(Op::RV_SUB, {.Rd = 14, .Rs1 = 14, .Rs2 = 16}),
+                lw(15, 0, 14),
                 encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
                 encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 13}),
                 encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 15}),

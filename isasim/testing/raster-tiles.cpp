@@ -50,9 +50,21 @@ private:
 
 class Log : public raster::WorkLog {
 public:
-  void command(raster::CommandWork &&Done) override { Work = std::move(Done); }
+  void command(raster::CommandWork &&Done) override {
+    Earlier.insert(Earlier.end(), Done.Gaussians.begin(), Done.Gaussians.end());
+    Done.Gaussians = std::move(Earlier);
+    Work = std::move(Done);
+  }
   void tail(raster::TailWork &&) override {}
-  raster::CommandWork Work;
+  bool wantsFetches() const override { return true; }
+  void part(const raster::CommandWork &,
+            std::vector<raster::GaussianWork> &&Fetched) override {
+    Earlier.insert(Earlier.end(), Fetched.begin(), Fetched.end());
+  }
+  raster::CommandWork Work; ///< the last, with all of its Gaussians
+
+private:
+  std::vector<raster::GaussianWork> Earlier;
 };
 
 /// The simulator's pixels; returns what the rasterizer did.

@@ -54,10 +54,10 @@ typedef struct {
   float angle;     ///< of that
 } splat_shutter;
 
-/// What places are measured from where fp32 has too few digits for them: the ray
-/// through the picture's middle, or through a window's, or the axis if the lens
-/// shows nothing there. The picture's lies behind the view, and behind the lens
-/// where there is one.
+/// What places are measured from where fp32 has too few digits for them: the
+/// ray through the picture's middle, or through a window's, or the axis if the
+/// lens shows nothing there. The picture's lies behind the view, and behind the
+/// lens where there is one.
 typedef struct {
   float across[2][3];     ///< how far beside that ray, by world axis,
   float across_low[2][3]; ///< as high + low

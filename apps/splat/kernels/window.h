@@ -1,7 +1,7 @@
 // Where a tile's pixels are by the records that it blends. Those of a wide
 // picture (effects/Windows.cpp) are of its windows, each with means from the
-// window's first pixel, one window after the other, behind a splat_windows in the
-// place of the first record.
+// window's first pixel, one window after the other, behind a splat_windows in
+// the place of the first record.
 typedef struct {
   __global const splat_gaussian *records;
   uint x, y; // of the tile's first pixel

@@ -1,4 +1,5 @@
-/* A process that is forked after a command was executed: the child's command must fail, and the child must end. */
+/* A process that is forked after a command was executed: the child's command
+ * must fail, and the child must end. */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <stdio.h>
@@ -13,9 +14,11 @@ static cl_int fill(void) {
   cl_mem Buffer = clCreateBuffer(Context, CL_MEM_READ_WRITE, 64, NULL, &Status);
   const cl_int One = 1;
   cl_int Read = 0;
-  Status = clEnqueueFillBuffer(Queue, Buffer, &One, sizeof(One), 0, 64, 0, NULL, NULL);
+  Status = clEnqueueFillBuffer(Queue, Buffer, &One, sizeof(One), 0, 64, 0, NULL,
+                               NULL);
   if (Status == CL_SUCCESS)
-    Status = clEnqueueReadBuffer(Queue, Buffer, CL_TRUE, 0, sizeof(Read), &Read, 0, NULL, NULL);
+    Status = clEnqueueReadBuffer(Queue, Buffer, CL_TRUE, 0, sizeof(Read), &Read,
+                                 0, NULL, NULL);
   clReleaseMemObject(Buffer);
   return Status == CL_SUCCESS && Read != 1 ? -9999 : Status;
 }
