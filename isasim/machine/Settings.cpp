@@ -119,6 +119,7 @@ static Expected<Success> setValue(Config &C, const Setting &Of,
     return Fail(unknownKey(Name));
   if (Named.size() > 1) {
     std::vector<std::string> Paths;
+    Paths.reserve(Named.size());
     for (const Key *K : Named)
       Paths.push_back(K->Path);
     return Fail(fmt::format("'{}' is the end of several keys, expected one of "

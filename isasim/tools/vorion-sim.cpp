@@ -82,10 +82,10 @@ std::string settings(const Options &O) {
 }
 
 Expected<Success> changeValues(Config &C, const Options &O) {
-  const Expected<Success> Ok = setValues(C, settings(O));
-  if (!O.Set.empty())
-    return Ok;
-  return Ok ? Ok : inVariable("VORION_SET", Ok.error());
+  Expected<Success> Ok = setValues(C, settings(O));
+  if (!Ok && O.Set.empty())
+    return inVariable("VORION_SET", Ok.error());
+  return Ok;
 }
 
 /// The machine that the options, and below them the environment, say; \p

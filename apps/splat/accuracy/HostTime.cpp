@@ -206,6 +206,7 @@ measureHostTime(const SweepPlan &P, const std::vector<Camera> &Views,
 std::string hostTimeText(const std::vector<HostTime> &All,
                          const std::vector<Camera> &Views) {
   std::vector<std::string> Names;
+  Names.reserve(Views.size());
   for (const Camera &View : Views)
     Names.push_back(View.Name);
   return fmt::format("the host's time for {}, processor seconds of the whole "

@@ -28,7 +28,7 @@ std::string inPath(const std::string &Name) {
   const char *Path = environmentVariable("PATH");
   std::istringstream Folders(Path ? Path : "");
   for (std::string Folder; std::getline(Folders, Folder, ':');)
-    if (const std::string File = Folder + "/" + Name;
+    if (const std::string File = fmt::format("{}/{}", Folder, Name);
         access(File.c_str(), X_OK) == 0)
       return File;
   return {};

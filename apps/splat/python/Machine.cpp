@@ -70,8 +70,10 @@ public:
   Machine(const std::string &Name, const DeviceOptions &Options)
       : Own(new State{valueOf(Device::open(Name, Options))}) {}
   ~Machine() {
-    if (OpenedIn != ::getpid())
-      static_cast<void>(Own.release()); // its release would wait for ever
+    if (OpenedIn != ::getpid()) {
+      // Its release would wait for ever.
+      [[maybe_unused]] const State *Left = Own.release();
+    }
   }
 
   const Device &device() const { return Own->Dev; }
@@ -115,9 +117,10 @@ public:
 
 private:
   struct State {
+    explicit State(Device D) : Dev(std::move(D)) {}
     Device Dev;
-    ProgramCache Programs = {};
-    std::mutex Lock = {};
+    ProgramCache Programs;
+    std::mutex Lock;
   };
   std::unique_ptr<State> Own;
 };

@@ -371,7 +371,8 @@ TrainingCase needlesAt(splat::LensModel M, std::string Name, std::string Why) {
                 {"needles-by-plain-sums"});
 }
 
-TrainingCase smallOn(std::string Name, std::string Why, splat::Camera View,
+TrainingCase smallOn(std::string Name, std::string Why,
+                     const splat::Camera &View,
                      std::vector<std::string> FoundIn) {
   GradientScene G{smallOnPicture(View, 80, 91), View, {}};
   G.Options.Optics = View.Optics.Model;

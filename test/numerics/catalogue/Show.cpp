@@ -231,7 +231,8 @@ Expected<Success> write(const std::string &Folder, const Files &All) {
                                      "one that can be made",
                                      Failed.message())};
   for (const auto &[Name, Bytes] : All)
-    if (auto Written = writeFileAtomically(Folder + "/" + Name, Bytes);
+    if (auto Written =
+            writeFileAtomically(fmt::format("{}/{}", Folder, Name), Bytes);
         !Written)
       return Written;
   return Success{};
