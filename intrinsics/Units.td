@@ -64,19 +64,14 @@ def : TableExpUnit<"table64", 6, "2.65e-5", 64, 19> { let Source = "as table, wi
 def : PolynomialExpUnit<2, 2, "2.7e-3", "two">;
 def : PolynomialExpUnit<3, 3, "1.1e-4", "three">;
 def : PolynomialExpUnit<4, 4, "7.2e-6", "four">;
-def : ExpUnit<"linear", 7, "5.7e-3", "four linear pieces an octave"> {
-  let Define = "EXP_LINEAR";
-  let Latency = 2;
-  let ProductBits = !mul(24, 24);
-  let AdderBits = !add(17, 17, 8);
-  let Source = "y 24 x 24 bits; a drop of two shifted rests, two sums of 17; an exponent";
+// Numbers of units that are gone, which no other unit takes: a program that
+// asks for one is refused, and never computes with another unit.
+class ReservedExpNumber<int number, string choice> {
+  int Value = number;
+  string Choice = choice;             // the name that the unit had on command lines
 }
-def : ExpUnit<"schraudolph", 8, "3.1e-2", "Schraudolph's"> {
-  let Define = "EXP_SCHRAUDOLPH";
-  let ProductBits = !mul(24, 24);
-  let AdderBits = 32;
-  let Source = "p log2(e) 24 x 24 bits, a sum of 32";
-}
+def : ReservedExpNumber<7, "linear">;
+def : ReservedExpNumber<8, "schraudolph">;
 
 // vr_options.blend. Its bodies: BlendVector.h and ScalarUnits.h.
 class BlendUnit<string choice, int number, int significandBits, string doc>

@@ -156,12 +156,11 @@ void exponentials(benchmark::State &State, const Datapath *Level,
 
 const bool Registered = [] {
   for (const Datapath *Level : datapaths())
-    for (const ExpUnit &Unit : ExpUnits)
+    for (std::size_t Row = 0; Row != ExpUnitCount; ++Row)
       benchmark::RegisterBenchmark(("exponentials/" + std::string(Level->Name) +
-                                    "/" + std::string(Unit.Name))
+                                    "/" + std::string(ExpUnits[Row].Name))
                                        .c_str(),
-                                   exponentials, Level,
-                                   std::size_t{Unit.Option});
+                                   exponentials, Level, Row);
   return true;
 }();
 

@@ -87,6 +87,8 @@ def units(records):
         for u in sorted(records.of(kind + "Unit"), key=lambda u: u.Value):
             bound = getattr(u, "MaxRelativeError", "").replace("0x1p", "2^")
             rows.append((field, u.Value, f"`{u.Choice}`", bound, u.Latency, u.Doc.split(": ", 1)[1]))
+        rows += ((field, r.Value, "", "", "", f"reserved: `{r.Choice}` in earlier versions.")
+                 for r in records.of(f"Reserved{kind}Number"))
     yield table(("field", "number", "option", "largest relative error", "cycles", "unit"), rows)
 
 

@@ -17,9 +17,10 @@ PARTS = ("Latency", "Interval", "Multipliers", "Adders", "ProductBits", "AdderBi
 
 
 def units(records, kind):
-    """In the records' order, that of command lines. The numbers are 0 to the last one."""
+    """In the records' order, that of command lines. With the reserved numbers, theirs are 0 to the last one."""
     found = records.of(kind + "Unit")
-    assert sorted(u.Value for u in found) == list(range(len(found))), f"numbers of {kind}Unit are not 0, 1, ..."
+    numbers = sorted(u.Value for u in found + records.of(f"Reserved{kind}Number"))
+    assert numbers == list(range(len(numbers))), f"numbers of {kind}Unit are not 0, 1, ..., each once"
     return found
 
 

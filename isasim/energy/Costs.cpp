@@ -123,7 +123,8 @@ void add(std::vector<EventCost> &To, std::string_view Unit,
 enum Place : uint8_t { Power, Exponential, Alpha, Blend };
 
 raster::LaneUnits paperLane() {
-  return {.Exp = raster::VR_EXP_TABLE, .Blend = raster::VR_BLEND_FP32};
+  return {.Exp = raster::expRowOf(raster::VR_EXP_TABLE),
+          .Blend = raster::VR_BLEND_FP32};
 }
 
 } // namespace

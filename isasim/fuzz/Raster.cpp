@@ -83,7 +83,8 @@ uint32_t likelyValue(unsigned Number, uint8_t Choice) {
     return Modes[Choice % std::size(Modes)];
   }
   case Csr::Options:
-    return raster::OptionsExp.put(Choice % raster::ExpUnitCount) |
+    return raster::OptionsExp.put(
+               raster::ExpUnits[Choice % raster::ExpUnitCount].Option) |
            raster::OptionsBlend.put(Choice / raster::ExpUnitCount %
                                     raster::BlendUnitCount) |
            raster::OptionsSkipSaturated.put(Choice / 27 % 2);

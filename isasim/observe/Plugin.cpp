@@ -68,7 +68,8 @@ Expected<Success> plug(const std::string &Path, const ExpUnitPlugin &Unit,
   if (!raster::PluggedExp) { // another machine may read it already
     To.Report(
         fmt::format("{}: computes the exponential unit '{}'", Path, Replaces));
-    raster::plugExp(Old->Option, Unit.Evaluate);
+    raster::plugExp(static_cast<uint32_t>(Old - std::begin(raster::ExpUnits)),
+                    Unit.Evaluate);
   }
   return Success{};
 }

@@ -20,7 +20,10 @@ TEST_F(RasterizerTest, StatusCodesOfTheBank) {
   const uint32_t End = TestMemory::Base + (8 << 20);
   const Case Cases[] = {
       {Csr::Mode, 32, VR_BAD_MODE},
-      {Csr::Options, OptionsExp.put(ExpUnitCount), VR_BAD_MODE},
+      {Csr::Options, OptionsExp.put(VR_EXP_TABLE64), VR_OK},
+      // Reserved: the units were removed.
+      {Csr::Options, OptionsExp.put(7), VR_BAD_MODE},
+      {Csr::Options, OptionsExp.put(8), VR_BAD_MODE},
       {Csr::Options, OptionsExp.put(15), VR_BAD_MODE},
       {Csr::Options, OptionsBlend.put(BlendUnitCount), VR_BAD_MODE},
       {Csr::Options, 0x80000000, VR_BAD_MODE},

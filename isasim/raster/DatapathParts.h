@@ -117,14 +117,14 @@ VORION_INLINE BoxWork workOf(const CutBox &Box, unsigned Fragments,
           static_cast<uint8_t>(Box.height())};
 }
 
-/// The bodies of a kind's units, by number.
+/// The bodies of a kind's units, by row of the tables.
 template <typename... Units> struct List {};
 template <template <uint32_t> class Body, uint32_t... Numbers>
 List<Body<Numbers>...> listOf(std::integer_sequence<uint32_t, Numbers...>);
 template <template <uint32_t> class Body, uint32_t Count>
 using Bodies =
     decltype(listOf<Body>(std::make_integer_sequence<uint32_t, Count>()));
-using Exps = Bodies<ExpBody, ExpRowCount>;
+using Exps = Bodies<ExpRow, ExpRowCount>;
 
 [[maybe_unused]] bool hostHasLevel() {
 #if defined(__AVX512F__)

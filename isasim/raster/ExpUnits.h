@@ -78,25 +78,4 @@ template <> struct ExpPolynomial<4> {
                                            -0x1.b338d2p-5F, 0x1.bc31dap-8F};
 };
 
-/// Numbers of the piecewise linear unit: four pieces an octave. Slopes are of
-/// two powers of two each, so that the unit multiplies nothing.
-namespace linear_exp {
-inline constexpr int FractionBits = 16;
-inline constexpr int Pieces = 4;
-inline constexpr int RestBits = FractionBits - 2;
-/// In 1/64: where a piece starts, and how much it falls to the next.
-inline constexpr int32_t Start[Pieces] = {64, 54, 45, 38};
-inline constexpr int32_t Drop[Pieces] = {10, 9, 7, 6};
-inline constexpr int UnitBits = 6;
-} // namespace linear_exp
-
-/// Numbers of Schraudolph's unit (Neural Computation 11, 1999): the bits of the
-/// result are a linear function of p.
-namespace schraudolph_exp {
-inline constexpr float Slope = 0x1.715476p23F; ///< log2(e) 2^23
-/// The bits of 1, less what makes the largest error above and below equal.
-inline constexpr int32_t Offset = (127 << 23) - 366393;
-inline constexpr int32_t SmallestNormal = 1 << 23;
-} // namespace schraudolph_exp
-
 } // namespace vorion::raster

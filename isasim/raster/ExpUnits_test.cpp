@@ -139,23 +139,20 @@ TEST_P(EveryLevel, EndsOfTheRange) {
   for (uint32_t Unit = 1; Unit != ExpUnitCount; ++Unit) {
     std::copy(std::begin(V), std::end(V), Out);
     GetParam()->Exp[Unit](Out, 16);
-    for (const unsigned I : {0, 1, 12}) {
-      if (Unit == VR_EXP_SCHRAUDOLPH)
-        EXPECT_NEAR(Out[I], 1.0F, 0.03F);
-      else
-        EXPECT_EQ(Out[I], 1.0F) << Unit;
-    }
+    for (const unsigned I : {0, 1, 12})
+      EXPECT_EQ(Out[I], 1.0F) << Unit;
     for (const unsigned I : {4, 5, 6, 7, 8, 10})
       EXPECT_EQ(Out[I], 0.0F) << Unit << ' ' << V[I];
   }
 }
 
 TEST_P(EveryLevel, UnitsKeepTheirBoundsAndFall) {
-  for (const ExpUnit &Unit : ExpUnits) {
+  for (uint32_t Row = 0; Row != ExpUnitCount; ++Row) {
+    const ExpUnit &Unit = ExpUnits[Row];
     double Largest = 0;
     float Previous = 2.0F;
     uint64_t Rises = 0;
-    sweep(*GetParam(), Unit.Option, 0x1p-30F, 86.6F, 1009,
+    sweep(*GetParam(), Row, 0x1p-30F, 86.6F, 1009,
           [&](const std::vector<float> &In, const std::vector<float> &Out) {
             for (std::size_t I = 0; I != In.size(); ++I) {
               const double E = std::exp(static_cast<double>(In[I]));
@@ -239,8 +236,6 @@ TEST_P(EveryLevel, OperandsAreRoundedToNearest) {
 TEST(ExpUnits, OptionsAreTheirPlaces) {
   for (std::size_t I = 0; I != std::size(BlendUnits); ++I)
     EXPECT_EQ(BlendUnits[I].Option, I);
-  for (std::size_t I = 0; I != std::size(ExpUnits); ++I)
-    EXPECT_EQ(ExpUnits[I].Option, I);
 }
 
 } // namespace

@@ -59,20 +59,6 @@ VORION_INLINE Double8 expDouble(Double8 X) {
 /// The unit of number \p Number; one that has no body does not compile.
 template <uint32_t Number> struct ExpBody;
 
-/// From outside, a lane after the other.
-template <> struct ExpBody<PluggedExpRow> {
-  /// A result may be e times too large.
-  static constexpr float Margin = 1.0F;
-  VORION_INLINE static Float16 evaluate(Float16 Power) {
-    // What is above 0 or NaN is nobody's pixel.
-    Power = Power < 0.0F ? Power : Float16(0.0F);
-    Float16 Result;
-    for (unsigned L = 0; L != LaneCount; ++L)
-      Result[L] = PluggedExp(Power[L]);
-    return Result;
-  }
-};
-
 template <> struct ExpBody<VR_EXP_EXACT> {
   /// Below log(threshold) less this, a result is surely under the threshold.
   static constexpr float Margin = 0.01F;
@@ -153,38 +139,21 @@ template <> struct ExpBody<VR_EXP_POLY2> : PolynomialExp<2> {};
 template <> struct ExpBody<VR_EXP_POLY3> : PolynomialExp<3> {};
 template <> struct ExpBody<VR_EXP_POLY4> : PolynomialExp<4> {};
 
-template <> struct ExpBody<VR_EXP_LINEAR> {
-  static constexpr float Margin = 0.02F;
-  VORION_INLINE static Float16 evaluate(Float16 Power) {
-    using namespace linear_exp;
-    constexpr float Slope =
-        base2_exp::Log2E * static_cast<float>(1 << FractionBits);
-    const Int16 Y = __builtin_convertvector(clampPower(Power) * -Slope, Int16);
-    const Int16 Piece = Y >> RestBits & (Pieces - 1);
-    const Int16 Rest = Y & ((1 << RestBits) - 1);
-    const auto Of = [&](const int32_t(&Numbers)[Pieces]) {
-      Int16 Value = Numbers[0];
-#pragma clang loop unroll(full)
-      for (int I = 1; I != Pieces; ++I)
-        Value = Piece == I ? Int16(Numbers[I]) : Value;
-      return Value;
-    };
-    const Int16 Mantissa =
-        (Of(Start) << (FractionBits - UnitBits)) -
-        (Of(Drop) * Rest >> (RestBits - FractionBits + UnitBits));
-    return scaleDown(__builtin_convertvector(Mantissa, Float16),
-                     Y >> FractionBits, FractionBits);
-  }
-};
+/// What a row of the datapaths' tables computes: the units of ExpUnits in their
+/// order, and one from outside.
+template <uint32_t Row> struct ExpRow : ExpBody<ExpUnits[Row].Option> {};
 
-template <> struct ExpBody<VR_EXP_SCHRAUDOLPH> {
-  static constexpr float Margin = 0.06F;
+/// From outside, a lane after the other.
+template <> struct ExpRow<PluggedExpRow> {
+  /// A result may be e times too large.
+  static constexpr float Margin = 1.0F;
   VORION_INLINE static Float16 evaluate(Float16 Power) {
-    using namespace schraudolph_exp;
-    const Int16 Bits =
-        __builtin_convertvector(clampPower(Power) * Slope, Int16) + Offset;
-    return __builtin_bit_cast(Float16,
-                              Bits >= SmallestNormal ? Bits : Int16(0));
+    // What is above 0 or NaN is nobody's pixel.
+    Power = Power < 0.0F ? Power : Float16(0.0F);
+    Float16 Result;
+    for (unsigned L = 0; L != LaneCount; ++L)
+      Result[L] = PluggedExp(Power[L]);
+    return Result;
   }
 };
 

@@ -56,7 +56,7 @@ static Job decode(const Command &C) {
   J.TailCount = C.TailCount;
   J.TailShare = C.TailShare;
   J.TailRecord = C.TailRecord;
-  J.Units = {static_cast<uint8_t>(OptionsExp.get(C.Options)),
+  J.Units = {expRowOf(OptionsExp.get(C.Options)),
              static_cast<uint8_t>(OptionsBlend.get(C.Options))};
   J.Blend = blendOptions(C);
   J.Backward = backwardOptions(C, J.Blend);

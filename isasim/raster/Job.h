@@ -5,14 +5,25 @@
 #include "raster/Command.h"
 #include "raster/Datapath.h"
 #include "raster/RasterMemory.h"
+#include "raster/UnitTables.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 namespace vorion::raster {
 
+/// The row of ExpUnits with number \p Option of vr_options.exp; ExpUnitCount if
+/// no unit has the number.
+constexpr uint8_t expRowOf(uint32_t Option) {
+  return static_cast<uint8_t>(
+      std::ranges::find(ExpUnits, Option, &ExpUnit::Option) -
+      std::begin(ExpUnits));
+}
+
 /// The units of a lane that vr_options chooses.
 struct LaneUnits {
-  uint8_t Exp = 0;   ///< vr_options.exp
+  uint8_t Exp = 0;   ///< row of ExpUnits
   uint8_t Blend = 0; ///< vr_options.blend
 };
 

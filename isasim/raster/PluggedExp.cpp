@@ -4,7 +4,7 @@ namespace vorion::raster {
 
 float (*PluggedExp)(float) = nullptr;
 
-/// A value of vr_options.exp; none while there is no unit from outside.
+/// A row of ExpUnits; none while there is no unit from outside.
 static uint32_t Replaced = PluggedExpRow;
 
 void plugExp(uint32_t Replaces, float (*Evaluate)(float)) {

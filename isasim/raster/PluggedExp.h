@@ -9,19 +9,19 @@
 
 namespace vorion::raster {
 
-/// Where the datapaths' tables of exponential units have it: behind the lanes'
-/// own.
+/// Where the datapaths' tables of exponential units have it: after the rows of
+/// ExpUnits.
 inline constexpr uint32_t PluggedExpRow = ExpUnitCount;
 inline constexpr uint32_t ExpRowCount = ExpUnitCount + 1;
 
 /// exp(Power) for Power <= 0; null while there is none.
 extern float (*PluggedExp)(float Power);
 
-/// Computes with \p Evaluate in the place of unit \p Replaces, in all machines
-/// of the process. Called before any of them runs.
+/// Computes with \p Evaluate in the place of ExpUnits[\p Replaces], in all
+/// machines of the process. Called before any of them runs.
 void plugExp(uint32_t Replaces, float (*Evaluate)(float));
 
-/// The row of the tables for \p Exp, a value of vr_options.exp.
+/// The row of the tables for LaneUnits::Exp \p Exp.
 uint32_t expRow(uint32_t Exp);
 
 } // namespace vorion::raster

@@ -49,26 +49,6 @@ template <unsigned Degree> float polynomialExp(float Power) {
   return scaled(Sum * G + 1.0F, static_cast<int32_t>(Whole), 0);
 }
 
-inline float linearExp(float Power) {
-  using namespace linear_exp;
-  const auto Y = static_cast<int32_t>(
-      held(Power) * -std::ldexp(base2_exp::Log2E, FractionBits));
-  const int32_t Fraction = Y % (1 << FractionBits);
-  const int32_t Piece = Fraction / (1 << RestBits);
-  const int32_t Rest = Fraction % (1 << RestBits);
-  // A whole piece falls by Drop/64 of 2^FractionBits.
-  const int32_t Mantissa =
-      Start[Piece] * (1 << FractionBits) / 64 - Drop[Piece] * Rest / 16;
-  return scaled(static_cast<float>(Mantissa), Y / (1 << FractionBits),
-                FractionBits);
-}
-
-inline float schraudolphExp(float Power) {
-  using namespace schraudolph_exp;
-  const int32_t Bits = static_cast<int32_t>(held(Power) * Slope) + Offset;
-  return Bits < SmallestNormal ? 0.0F : std::bit_cast<float>(Bits);
-}
-
 /// The unit of number \p Number; one that has no body does not compile.
 template <uint32_t Number> float expBody(float Power) = delete;
 
@@ -94,24 +74,17 @@ template <> inline float expBody<VR_EXP_POLY3>(float Power) {
 template <> inline float expBody<VR_EXP_POLY4>(float Power) {
   return polynomialExp<4>(Power);
 }
-template <> inline float expBody<VR_EXP_LINEAR>(float Power) {
-  return linearExp(Power);
-}
-template <> inline float expBody<VR_EXP_SCHRAUDOLPH>(float Power) {
-  return schraudolphExp(Power);
-}
-
-template <uint32_t... Numbers>
-float exp(uint32_t Option, float Power,
-          std::integer_sequence<uint32_t, Numbers...> /*All*/) {
-  static constexpr float (*Bodies[])(float) = {expBody<Numbers>...};
-  return Bodies[Option](Power);
+template <uint32_t... Rows>
+float exp(uint32_t Row, float Power,
+          std::integer_sequence<uint32_t, Rows...> /*All*/) {
+  static constexpr float (*Bodies[])(float) = {
+      expBody<ExpUnits[Rows].Option>...};
+  return Bodies[Row](Power);
 }
 
-/// What unit \p Option makes of \p Power <= 0.
-inline float exp(uint32_t Option, float Power) {
-  return exp(Option, Power,
-             std::make_integer_sequence<uint32_t, ExpUnitCount>());
+/// What ExpUnits[\p Row] makes of \p Power <= 0.
+inline float exp(uint32_t Row, float Power) {
+  return exp(Row, Power, std::make_integer_sequence<uint32_t, ExpUnitCount>());
 }
 
 /// \p X as an operand of blend arithmetic \p Option: rounded in doubles to the

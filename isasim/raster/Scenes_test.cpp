@@ -261,8 +261,6 @@ TEST_F(ScenesTest, CoarserLanesStayWithinTheirBounds) {
                          {Exp(VR_EXP_POLY4), 1e-8, 2e-5},
                          {Exp(VR_EXP_TABLE32), 1e-6, 3e-4},
                          {Exp(VR_EXP_TABLE64), 1e-6, 1e-4},
-                         {Exp(VR_EXP_LINEAR), 1e-4, 1e-2},
-                         {Exp(VR_EXP_SCHRAUDOLPH), 1e-3, 4e-2},
                          {Blend(VR_BLEND_BF16), 1e-4, 1e-2},
                          {Blend(VR_BLEND_FP16), 1e-5, 2e-3},
                          {OptionsAlphaCutoff.put(1), 1e-4, 3e-2},

@@ -157,7 +157,7 @@ double unitsArea(raster::LaneUnits Units) {
 /// a lane's area; that lane is taken to have the table unit.
 double restOfLane() {
   const double PaperLane = 1.5 * (MultiplierArea + AdderArea) / 0.07;
-  return PaperLane - unitsArea({.Exp = raster::VR_EXP_TABLE,
+  return PaperLane - unitsArea({.Exp = raster::expRowOf(raster::VR_EXP_TABLE),
                                 .Blend = raster::VR_BLEND_FP32});
 }
 
@@ -171,8 +171,12 @@ std::string areasJson() {
   nlohmann::ordered_json J{{"exp", nlohmann::json::array()},
                            {"blend", nlohmann::json::array()},
                            {"reciprocal", nlohmann::json::array()}};
-  for (const DatapathUnit &U : ExpParts)
-    J["exp"].push_back(area(U));
+  for (uint32_t Row = 0; Row != raster::ExpUnitCount; ++Row) {
+    // Reserved numbers have no area.
+    while (J["exp"].size() != raster::ExpUnits[Row].Option)
+      J["exp"].push_back(0);
+    J["exp"].push_back(area(ExpParts[Row]));
+  }
   for (const DatapathUnit &U : BlendParts)
     J["blend"].push_back(area(U));
   for (const DatapathUnit &U : ReciprocalParts)

@@ -31,7 +31,7 @@ struct DatapathUnit {
 /// the first.
 std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units);
 
-/// \name Names of units, by the numbers of vr_options
+/// \name Names of units, by the members of raster::LaneUnits
 /// @{
 std::string_view expUnitName(uint8_t Exp);
 std::string_view blendUnitName(uint8_t Blend);
@@ -45,8 +45,9 @@ unsigned laneDepth(raster::LaneUnits Units);
 double area(const DatapathUnit &U);
 /// Of a lane with its share of the rasterizer's buffers, dispatch and gather.
 double laneArea(raster::LaneUnits Units);
-/// The parts of that as JSON: "exp" and "blend", areas by option, and "other";
-/// and "reciprocal", by option, of a pair of lanes.
+/// The parts of that as JSON: "exp" and "blend", areas by option, 0 for one
+/// that is reserved, and "other"; and "reciprocal", by option, of a pair of
+/// lanes.
 std::string areasJson();
 /// @}
 

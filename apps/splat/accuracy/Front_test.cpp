@@ -13,7 +13,7 @@ Candidate made(const char *Name, double Db, double Cycles) {
 
 const std::vector<Candidate> All{
     made("default", 140, 100),     made("exp=poly4", 120, 100),
-    made("exp=linear", 50, 99),    made("tile=32", 140, 80),
+    made("exp=poly2", 50, 99),     made("tile=32", 140, 80),
     made("cutoff=0.01", 60, 70),   made("cutoff=0.03", 40, 60),
     made("depth-bits=24", 90, 75), made("alpha-cutoff=8", 39, 65),
 };
@@ -33,7 +33,7 @@ TEST(Front, HasWhatNothingBeats) {
 }
 
 TEST(Front, AFewCyclesAreNoReason) {
-  const std::vector<Candidate> Same{made("exp=linear", 60, 10000),
+  const std::vector<Candidate> Same{made("exp=poly2", 60, 10000),
                                     made("exp=poly4", 120, 10001),
                                     made("exp=exact", 120, 10002)};
   // Of as fast and accurate ones that which changes nothing.
@@ -107,7 +107,7 @@ TEST(Front, TheCoresAreJudgedByTheirOwnPictures) {
 }
 
 TEST(Front, SingleKnobsThatTakeNoTimeAreFree) {
-  // Of the default's time; cutoffs save, exp=linear does by 1 %.
+  // Of the default's time; cutoffs save, exp=poly2 does by 1 %.
   EXPECT_EQ(names(sameTimeAs(All.front(), All, TimeAxis::Cycles)),
             std::vector<std::string>{"exp=poly4"});
 }

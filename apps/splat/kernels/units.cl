@@ -1,22 +1,11 @@
 // e^power for power in [-80, 0] as the rasterizer's exponential units without a
 // table find it (docs/lane-units.md#exponential-units): the same operations, so
-// the same bits. One of EXP_DEGREE (2 to 4), EXP_LINEAR, EXP_SCHRAUDOLPH is
-// defined. Numbers are those of isasim/raster/ExpUnits.h.
+// the same bits. EXP_DEGREE, 2 to 4, is defined. Numbers are those of
+// isasim/raster/ExpUnits.h.
 
 #define LOG2E 0x1.715476p0f
 
 static float falloff(float power) {
-#if defined(EXP_SCHRAUDOLPH)
-  return as_float((int)(power * (LOG2E * 0x1p23f)) + (127 << 23) - 366393);
-#elif defined(EXP_LINEAR)
-  // Four pieces an octave, in 16-bit fixed point.
-  const int y = (int)(power * -(LOG2E * 0x1p16f));
-  const int piece = y >> 14 & 3;
-  const int start = piece == 0 ? 64 : piece == 1 ? 54 : piece == 2 ? 45 : 38;
-  const int drop = piece == 0 ? 10 : piece == 1 ? 9 : piece == 2 ? 7 : 6;
-  const int mantissa = (start << 10) - (drop * (y & 0x3fff) >> 4);
-  return as_float(as_int((float)mantissa) - (((y >> 16) + 16) << 23));
-#else
   const float y = power * -LOG2E;
   const int whole = (int)y;
   const float g = y - (float)whole;
@@ -31,5 +20,4 @@ static float falloff(float power) {
       -0x1.62d838p-1f;
 #endif
   return as_float(as_int(sum * g + 1.0f) - (whole << 23));
-#endif
 }

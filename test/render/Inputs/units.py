@@ -5,8 +5,8 @@ import json
 import subprocess
 
 BETWEEN = {  # dB: nearer would be no choice, farther a mistake
-    "table64": (85, 130), "poly2": (50, 90), "poly3": (75, 120), "poly4": (95, 150), "linear": (45, 85),
-    "schraudolph": (30, 70), "bf16": (40, 75), "fp16": (60, 95), "alpha8": (25, 60), "sh0": (5, 60)}
+    "table64": (85, 130), "poly2": (50, 90), "poly3": (75, 120), "poly4": (95, 150),
+    "bf16": (40, 75), "fp16": (60, 95), "alpha8": (25, 60), "sh0": (5, 60)}
 
 
 def counter(name, key):

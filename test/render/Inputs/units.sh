@@ -7,7 +7,7 @@ draw() {
 }
 draw default
 draw tile16 --tile 16
-for exp in poly2 poly3 poly4 linear schraudolph; do
+for exp in poly2 poly3 poly4; do
   draw $exp --exp $exp
   draw $exp-simt --path simt --exp $exp
 done

@@ -257,10 +257,10 @@ def check_page(at):
 
         # Two settings side by side: another unit has another picture, error and time.
         settled(browser, lambda: browser.key("c"))
-        settled(browser, lambda: choose(browser, "knob-exp-b", "schraudolph"))
+        settled(browser, lambda: choose(browser, "knob-exp-b", "poly2"))
         assert pixels_of(browser) == first != pixels_of(browser, "b")
         captions = browser.value("[...document.querySelectorAll('figcaption')].map(c => c.innerText)")
-        assert "default" in captions[0] and "exp=schraudolph" in captions[1] and all("cycles" in c and "dB" in c for c in captions), captions
+        assert "default" in captions[0] and "exp=poly2" in captions[1] and all("cycles" in c and "dB" in c for c in captions), captions
         assert "SH" not in browser.value("document.getElementById('problem').innerText")
 
         # What is no scene is said, and the old one stays; a scene opens.
