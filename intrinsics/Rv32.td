@@ -34,21 +34,30 @@ class ShiftType<string mnemonic, int funct3, int funct7, string extension>
            0xFE00707F, "rd, rs1, shamt", extension>;
 class SType<string mnemonic, int opcode, int funct3, string extension,
             string syntax = "rs2, imm(rs1)">
-    : Rv32<mnemonic, S, !or(opcode, !shl(funct3, 12)), 0x707F, syntax, extension>;
+    : Rv32<mnemonic, S, !or(opcode, !shl(funct3, 12)), 0x707F, syntax, extension> {
+  let Effects = Store;
+}
 class BType<string mnemonic, int funct3>
-    : Rv32<mnemonic, B, !or(0x63, !shl(funct3, 12)), 0x707F, "rs1, rs2, target", "i">;
+    : Rv32<mnemonic, B, !or(0x63, !shl(funct3, 12)), 0x707F, "rs1, rs2, target", "i"> {
+  let Effects = Branch;
+}
 class AmoType<string mnemonic, int funct5, string extension>
     : Rv32<mnemonic, R, !or(0x202F, !shl(funct5, 27)), 0xF800707F,
-           "rd, rs2, (rs1)", extension>;
+           "rd, rs2, (rs1)", extension> {
+  let Effects = Atomic;
+}
 // With a pair of registers for rd and rs2; the odd ones are reserved.
 class AmoPairType<string mnemonic, int funct5, string extension>
     : Rv32<mnemonic, R, !or(0x302F, !shl(funct5, 27)), 0xF81070FF,
            "rd, rs2, (rs1)", extension> {
+  let Effects = Atomic;
   let Pairs = 1;
 }
 class CsrType<string mnemonic, int funct3>
     : Rv32<mnemonic, !if(!gt(funct3, 4), ICsrImm, ICsr), !or(0x73, !shl(funct3, 12)),
-           0x707F, !if(!gt(funct3, 4), "rd, csr, uimm", "rd, csr, rs1"), "zicsr">;
+           0x707F, !if(!gt(funct3, 4), "rd, csr, uimm", "rd, csr, rs1"), "zicsr"> {
+  let Effects = !if(!gt(funct3, 4), CsrImmediate, CsrRegister);
+}
 // OP-FP; the rounding mode is where funct3 is.
 class FRound<string mnemonic, int funct7>
     : Rv32<mnemonic, R, !or(0x53, !shl(funct7, 25)), 0xFE00007F,
@@ -60,10 +69,14 @@ class FmaType<string mnemonic, int opcode>
     : Rv32<mnemonic, R4, opcode, 0x0600007F, "frd, frs1, frs2, frs3, rm", "f">;
 
 // RV32I
+let Effects = LaneWise in {
 def RV_LUI : Rv32<"lui", U, 0x37, 0x7F, "rd, uimm20", "i">;
 def RV_AUIPC : Rv32<"auipc", U, 0x17, 0x7F, "rd, uimm20", "i">;
+}
 let Latency = LatencyBranch in {
+let Effects = Jump in
 def RV_JAL : Rv32<"jal", J, 0x6F, 0x7F, "rd, target", "i">;
+let Effects = IndirectJump in
 def RV_JALR : IType<"jalr", 0x67, 0, "i", "rd, imm(rs1)">;
 def RV_BEQ : BType<"beq", 0>;
 def RV_BNE : BType<"bne", 1>;
@@ -72,7 +85,7 @@ def RV_BGE : BType<"bge", 5>;
 def RV_BLTU : BType<"bltu", 6>;
 def RV_BGEU : BType<"bgeu", 7>;
 }
-let Latency = LatencyLoad in {
+let Latency = LatencyLoad, Effects = Load in {
 def RV_LB : IType<"lb", 0x03, 0, "i", "rd, imm(rs1)">;
 def RV_LH : IType<"lh", 0x03, 1, "i", "rd, imm(rs1)">;
 def RV_LW : IType<"lw", 0x03, 2, "i", "rd, imm(rs1)">;
@@ -84,6 +97,7 @@ def RV_SB : SType<"sb", 0x23, 0, "i">;
 def RV_SH : SType<"sh", 0x23, 1, "i">;
 def RV_SW : SType<"sw", 0x23, 2, "i">;
 }
+let Effects = LaneWise in {
 def RV_ADDI : IType<"addi", 0x13, 0, "i">;
 def RV_SLTI : IType<"slti", 0x13, 2, "i">;
 def RV_SLTIU : IType<"sltiu", 0x13, 3, "i">;
@@ -103,17 +117,18 @@ def RV_SRL : RType<"srl", 0x33, 5, 0x00, "i">;
 def RV_SRA : RType<"sra", 0x33, 5, 0x20, "i">;
 def RV_OR : RType<"or", 0x33, 6, 0x00, "i">;
 def RV_AND : RType<"and", 0x33, 7, 0x00, "i">;
+}
 // fence.tso and pause are fences too; fields that a fence does not use are
 // ignored, as the specification asks.
-let Latency = LatencyFence in
+let Latency = LatencyFence, Effects = Fence in
 def RV_FENCE : Rv32<"fence", Plain, 0x0F, 0x707F, "fence", "i">;
-let Latency = LatencyCsr in {
+let Latency = LatencyCsr, Effects = Trap in {
 def RV_ECALL : Rv32<"ecall", Plain, 0x73, 0xFFFFFFFF, "", "i">;
 def RV_EBREAK : Rv32<"ebreak", Plain, 0x100073, 0xFFFFFFFF, "", "i">;
 }
 
 // Zifencei, Zicsr
-let Latency = LatencyFence in
+let Latency = LatencyFence, Effects = Fence in
 def RV_FENCE_I : Rv32<"fence.i", Plain, 0x100F, 0x707F, "", "zifencei">;
 let Latency = LatencyCsr in {
 def RV_CSRRW : CsrType<"csrrw", 1>;
@@ -125,13 +140,13 @@ def RV_CSRRCI : CsrType<"csrrci", 7>;
 }
 
 // M
-let Latency = LatencyMul in {
+let Latency = LatencyMul, Effects = LaneWise in {
 def RV_MUL : RType<"mul", 0x33, 0, 0x01, "m">;
 def RV_MULH : RType<"mulh", 0x33, 1, 0x01, "m">;
 def RV_MULHSU : RType<"mulhsu", 0x33, 2, 0x01, "m">;
 def RV_MULHU : RType<"mulhu", 0x33, 3, 0x01, "m">;
 }
-let Latency = LatencyDiv in {
+let Latency = LatencyDiv, Effects = LaneWise in {
 def RV_DIV : RType<"div", 0x33, 4, 0x01, "m">;
 def RV_DIVU : RType<"divu", 0x33, 5, 0x01, "m">;
 def RV_REM : RType<"rem", 0x33, 6, 0x01, "m">;
@@ -153,6 +168,7 @@ def RV_AMOCAS_W : AmoType<"amocas.w", 0x05, "zacas">;
 def RV_AMOCAS_D : AmoPairType<"amocas.d", 0x05, "zacas">;
 }
 
+let Effects = LaneWise in {
 // Zicond
 def RV_CZERO_EQZ : RType<"czero.eqz", 0x33, 5, 0x07, "zicond">;
 def RV_CZERO_NEZ : RType<"czero.nez", 0x33, 7, 0x07, "zicond">;
@@ -191,13 +207,14 @@ def RV_BCLRI : ShiftType<"bclri", 1, 0x24, "zbs">;
 def RV_BEXTI : ShiftType<"bexti", 5, 0x24, "zbs">;
 def RV_BINVI : ShiftType<"binvi", 1, 0x34, "zbs">;
 def RV_BSETI : ShiftType<"bseti", 1, 0x14, "zbs">;
+}
 
 // F
-let Latency = LatencyLoad in
+let Latency = LatencyLoad, Effects = Load in
 def RV_FLW : IType<"flw", 0x07, 2, "f", "frd, imm(rs1)">;
 let Latency = LatencyStore in
 def RV_FSW : SType<"fsw", 0x27, 2, "f", "frs2, imm(rs1)">;
-let Latency = LatencyFma in {
+let Latency = LatencyFma, Effects = LaneWise in {
 def RV_FMADD_S : FmaType<"fmadd.s", 0x43>;
 def RV_FMSUB_S : FmaType<"fmsub.s", 0x47>;
 def RV_FNMSUB_S : FmaType<"fnmsub.s", 0x4B>;
@@ -206,11 +223,11 @@ def RV_FADD_S : FRound<"fadd.s", 0x00>;
 def RV_FSUB_S : FRound<"fsub.s", 0x04>;
 def RV_FMUL_S : FRound<"fmul.s", 0x08>;
 }
-let Latency = LatencyFdiv in
+let Latency = LatencyFdiv, Effects = LaneWise in
 def RV_FDIV_S : FRound<"fdiv.s", 0x0C>;
-let Latency = LatencyFsqrt in
+let Latency = LatencyFsqrt, Effects = LaneWise in
 def RV_FSQRT_S : FRoundUnary<"fsqrt.s", 0x2C, 0, "frd, frs1, rm">;
-let Latency = LatencyFcmp in {
+let Latency = LatencyFcmp, Effects = LaneWise in {
 def RV_FSGNJ_S : RType<"fsgnj.s", 0x53, 0, 0x10, "f", "frd, frs1, frs2">;
 def RV_FSGNJN_S : RType<"fsgnjn.s", 0x53, 1, 0x10, "f", "frd, frs1, frs2">;
 def RV_FSGNJX_S : RType<"fsgnjx.s", 0x53, 2, 0x10, "f", "frd, frs1, frs2">;
@@ -220,13 +237,13 @@ def RV_FLE_S : RType<"fle.s", 0x53, 0, 0x50, "f", "rd, frs1, frs2">;
 def RV_FLT_S : RType<"flt.s", 0x53, 1, 0x50, "f", "rd, frs1, frs2">;
 def RV_FEQ_S : RType<"feq.s", 0x53, 2, 0x50, "f", "rd, frs1, frs2">;
 }
-let Latency = LatencyFcvt in {
+let Latency = LatencyFcvt, Effects = LaneWise in {
 def RV_FCVT_W_S : FRoundUnary<"fcvt.w.s", 0x60, 0, "rd, frs1, rm">;
 def RV_FCVT_WU_S : FRoundUnary<"fcvt.wu.s", 0x60, 1, "rd, frs1, rm">;
 def RV_FCVT_S_W : FRoundUnary<"fcvt.s.w", 0x68, 0, "frd, rs1, rm">;
 def RV_FCVT_S_WU : FRoundUnary<"fcvt.s.wu", 0x68, 1, "frd, rs1, rm">;
 }
-let Latency = LatencyFcmp in {
+let Latency = LatencyFcmp, Effects = LaneWise in {
 def RV_FMV_X_W : Unary<"fmv.x.w", 0x53, 0, 0x70, 0, "f", "rd, frs1">;
 def RV_FCLASS_S : Unary<"fclass.s", 0x53, 1, 0x70, 0, "f", "rd, frs1">;
 def RV_FMV_W_X : Unary<"fmv.w.x", 0x53, 0, 0x78, 0, "f", "frd, rs1">;

@@ -21,6 +21,7 @@ class Instruction<string mnemonic, Format format, int match, int mask,
   int Mask = mask;
   string Extension = extension;
   LatencyClass Latency = LatencyAlu;
+  EffectClass Effects = ?;            // every instruction declares it
   // rd and rs2 name the even one of two neighbouring registers, which hold 64
   // bits, the low ones in the even one. x0 stands for 64 zeros.
   bit Pairs = 0;

@@ -5,6 +5,7 @@
 //
 //===----------------------------------------------------------------------===//
 
+include "Effects.td"
 include "Latencies.td"
 include "Schema.td"
 include "Rv32.td"

@@ -36,8 +36,21 @@ def simt(records):
     for i in records.of("SimtInstruction"):
         operands = ", ".join(x for x in (i.Outs, i.Ins) if x)
         rows.append((f"`{i.Mnemonic} {operands}`", f"`{i.Match & 0xffffffff:08x}/{i.Mask & 0xffffffff:08x}`",
-                     i.Divergence, i.Doc))
-    yield table(("instruction", "match/mask", "result over lanes", "meaning"), rows)
+                     i.Divergence, i.Effects.id, i.Doc))
+    yield table(("instruction", "match/mask", "result over lanes", "effects", "meaning"), rows)
+
+
+def effects(records):
+    yield "\n## Effects\n"
+    yield paragraph("What an instruction does besides giving rd of each active lane a value that follows from the lane's "
+                    "own operands. Checkers report a used operand that is undefined.")
+    rows = []
+    for c in records.of("EffectClass"):
+        instructions = [f"`{i.Mnemonic}`" for i in records.of("Instruction") if i.Effects.id == c.id]
+        uses = ", ".join(f"{u.Operand} of {'the last' if u.LastLane else 'every active'} lane" for u in c.Uses)
+        rows.append((c.id, "; ".join(e.Doc for e in c.Effects), "" if c.Result.id == "NoResult" else c.Result.Doc, uses,
+                     "all others" if c.id == "LaneWise" else " ".join(instructions)))
+    yield table(("class", "effects", "rd is defined", "uses", "instructions"), rows)
 
 
 def csrs(records):
@@ -114,7 +127,7 @@ def main():
     parser.add_argument("output")
     args = parser.parse_args()
     records = Records(args.tblgen)
-    parts = (simt, csrs, counters, units, descriptors, constants, base)
+    parts = (simt, effects, csrs, counters, units, descriptors, constants, base)
     text = HEAD + "".join(chunk if chunk.endswith("\n") and chunk.startswith("|") else chunk + "\n"
                           for part in parts for chunk in part(records))
     if args.check:

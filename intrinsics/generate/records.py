@@ -8,6 +8,7 @@ import argparse
 import json
 import os
 import subprocess
+import sys
 from types import SimpleNamespace
 
 FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -21,6 +22,16 @@ class Records:
             [tblgen, "--dump-json", "-I", FOLDER, os.path.join(FOLDER, "Vorion.td")],
             check=True, stdout=subprocess.PIPE).stdout
         self._dump = json.loads(dump)
+        self._require_effects()
+
+    def _require_effects(self):
+        """Readers of the records would take an instruction without effects for one of each lane's own operands."""
+        for name in self._dump["!instanceof"]["Instruction"]:
+            record = self._dump[name]
+            if record["Effects"] is None:
+                expected = ", ".join(sorted(self._dump["!instanceof"]["EffectClass"]))
+                sys.exit(f"{os.path.basename(sys.argv[0])}: error: intrinsics/{record['!locs'][-1]}: {record['Mnemonic']} "
+                         f"declares no effects, expected 'let Effects =' one of {expected} (intrinsics/Effects.td)")
 
     def _resolve(self, value):
         if isinstance(value, dict) and value.get("kind") == "def":

@@ -1,42 +1,34 @@
 /// Instructions by what they do, for tests that draw from them.
 #pragma once
 
-#include "core/Isa.h"
+#include "core/Effects.h"
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
+#include <vector>
 
 namespace vorion::isasim::testing {
 
-/// What computes a register from registers and the immediate, lane by lane.
-inline constexpr auto Computations = std::to_array<Op>({
-#define INT(OP, RESULT) Op::OP,
-#include "core/insns/integer.def"
-#define FLOAT(OP, SOFT, RESULT) Op::OP,
-#define FUSED(OP, SOFT, FACTOR, ADDEND) Op::OP,
-#define COMPARE(OP, CONDITION, QUIET_IS_INVALID) Op::OP,
-#define MINMAX(OP, IS_MIN) Op::OP,
-#define TOINT(OP, SIGNED, SOFT) Op::OP,
-#define FROMINT(OP, SIGNED, SOFT) Op::OP,
-#include "core/insns/float.def"
-});
+/// All instructions of \p Classes, in the order of the records.
+inline std::vector<Op> opsOf(std::initializer_list<EffectClass> Classes) {
+  std::vector<Op> Ops;
+  for (unsigned N = 0; N != NumOps; ++N)
+    if (const Op O = static_cast<Op>(N);
+        std::ranges::find(Classes, effectsOf(O).Class) != Classes.end())
+      Ops.push_back(O);
+  return Ops;
+}
+
+/// What computes a register from registers and the immediate, without a trap or
+/// a jump.
+inline std::vector<Op> computations() {
+  return opsOf(
+      {EffectClass::LaneWise, EffectClass::Vote, EffectClass::Shuffle});
+}
 
 /// What reads or writes memory.
-inline constexpr auto Accesses = std::to_array<Op>({
-#define LOAD(OP, T) Op::OP,
-#define STORE(OP, T) Op::OP,
-#define AMO(OP, KIND) Op::OP,
-#include "core/insns/memory.def"
-});
-
-/// \p First and \p Others behind them.
-template <size_t N, size_t M>
-constexpr std::array<Op, N + M> joined(const std::array<Op, N> &First,
-                                       const std::array<Op, M> &Others) {
-  std::array<Op, N + M> All{};
-  std::copy(Others.begin(), Others.end(),
-            std::copy(First.begin(), First.end(), All.begin()));
-  return All;
+inline std::vector<Op> accesses() {
+  return opsOf({EffectClass::Load, EffectClass::Store, EffectClass::Atomic});
 }
 
 } // namespace vorion::isasim::testing

@@ -1,6 +1,7 @@
 #include "translate/Region.h"
 
 #include "core/Atomics.h"
+#include "core/Effects.h"
 
 #include <algorithm>
 #include <deque>
@@ -42,9 +43,8 @@ bool needsWide(Op O, const Insn *I) {
   }
 }
 
-Kind kindOf(VectorUnit Unit, Op O, const Insn *I) {
-  if (Unit != VectorUnit::Avx512 && needsWide(O, I))
-    return Kind::Other;
+/// Operations of each lane's own operands.
+Kind kindOfOwn(Op O, const Insn *I) {
   switch (O) {
 #define INT(OP, RESULT) case Op::OP:
 #include "core/insns/integer.def"
@@ -66,48 +66,35 @@ Kind kindOf(VectorUnit Unit, Op O, const Insn *I) {
   case Op::RV_FMIN_S:
   case Op::RV_FMAX_S:
     return Kind::Float;
-#define BRANCH(OP, CONDITION) case Op::OP:
-#include "core/insns/branch.def"
-    return I->Imm == BadTarget ? Kind::Other : Kind::Branch;
-  case Op::RV_CSRRS: {
-    const bool OnlyReads = (I->Word >> 12 & 0xFF) == 2; // csrrs rd, csr, x0
-    const uint32_t Number = I->Word >> 20;
-    return OnlyReads &&
-                   (Number == CSR_THREAD_ID || Number == CSR_ACTIVE_THREADS)
-               ? Kind::Integer
-               : Kind::Other;
+  default:
+    return Kind::Other;
   }
-  case Op::RV_JALR:
-    return Kind::Indirect;
+}
+
+/// Whether the emitter has host code for what lanes do with each other.
+bool hasHostCode(Op O) {
+  switch (O) {
   case Op::VX_SPLIT:
   case Op::VX_SPLIT_N:
   case Op::VX_JOIN:
   case Op::VX_PRED:
   case Op::VX_PRED_N:
-    return Kind::Lanes;
   case Op::VX_VOTE_ALL:
   case Op::VX_VOTE_ANY:
   case Op::VX_VOTE_UNI:
   case Op::VX_VOTE_BALLOT:
-    return Kind::Vote;
   case Op::VX_SHFL_UP:
   case Op::VX_SHFL_DOWN:
   case Op::VX_SHFL_BFLY:
   case Op::VX_SHFL_IDX:
-    return Kind::Shuffle;
-  case Op::VX_BAR:
-    return Kind::Barrier;
-  case Op::RV_FENCE:
-  case Op::RV_FENCE_I:
-    return Kind::Fence;
-  case Op::RV_JAL:
-    return I->Imm == BadTarget ? Kind::Other : Kind::Jump;
-#define LOAD(OP, T) case Op::OP:
-#include "core/insns/memory.def"
-    return Kind::Load;
-#define STORE(OP, T) case Op::OP:
-#include "core/insns/memory.def"
-    return Kind::Store;
+    return true;
+  default:
+    return false;
+  }
+}
+
+Kind kindOfAtomic(Op O) {
+  switch (O) {
 #define AMO(OP, KIND)                                                          \
   case Op::OP:                                                                 \
     return canTranslate(Amo::KIND) ? Kind::Atomic : Kind::Other;
@@ -117,18 +104,59 @@ Kind kindOf(VectorUnit Unit, Op O, const Insn *I) {
   }
 }
 
+/// csrr of what every work-item function reads.
+bool readsLanes(const Insn *I) {
+  const bool OnlyReads = (I->Word >> 12 & 0xFF) == 2; // csrrs rd, csr, x0
+  const uint32_t Number = I->Word >> 20;
+  return OnlyReads && (Number == CSR_THREAD_ID || Number == CSR_ACTIVE_THREADS);
+}
+
+Kind kindOf(VectorUnit Unit, Op O, const Insn *I) {
+  if (Unit != VectorUnit::Avx512 && needsWide(O, I))
+    return Kind::Other;
+  switch (effectsOf(O).Class) {
+  case EffectClass::LaneWise:
+    return kindOfOwn(O, I);
+  case EffectClass::Split:
+  case EffectClass::Join:
+  case EffectClass::Predicate:
+    return hasHostCode(O) ? Kind::Lanes : Kind::Other;
+  case EffectClass::Vote:
+    return hasHostCode(O) ? Kind::Vote : Kind::Other;
+  case EffectClass::Shuffle:
+    return hasHostCode(O) ? Kind::Shuffle : Kind::Other;
+  case EffectClass::Warps:
+    return O == Op::VX_BAR ? Kind::Barrier : Kind::Other;
+  case EffectClass::Load:
+    return Kind::Load;
+  case EffectClass::Store:
+    return Kind::Store;
+  case EffectClass::Atomic:
+    return kindOfAtomic(O);
+  case EffectClass::Fence:
+    return Kind::Fence;
+  case EffectClass::Branch:
+    return I->Imm == BadTarget ? Kind::Other : Kind::Branch;
+  case EffectClass::Jump:
+    return I->Imm == BadTarget ? Kind::Other : Kind::Jump;
+  case EffectClass::IndirectJump:
+    return Kind::Indirect;
+  case EffectClass::CsrRegister:
+  case EffectClass::CsrImmediate:
+    return readsLanes(I) ? Kind::Integer : Kind::Other;
+  case EffectClass::SetMask:
+  case EffectClass::Trap:
+    return Kind::Other;
+  }
+  __builtin_unreachable();
+}
+
 /// Whether the instruction behind it is not reached from it.
 bool endsPath(const GuestInsn &G) {
-  switch (G.Opcode) {
-  case Op::RV_JAL:
-  case Op::RV_JALR:
+  const EffectClass Class = effectsOf(G.Opcode).Class;
+  if (Class == EffectClass::Jump || Class == EffectClass::IndirectJump)
     return isSink(G.I->Rd); // a call comes back
-  case Op::RV_ECALL:
-  case Op::RV_EBREAK:
-    return true;
-  default:
-    return false;
-  }
+  return Class == EffectClass::Trap;
 }
 
 using Found = std::map<const Insn *, GuestInsn>;

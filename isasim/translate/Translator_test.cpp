@@ -20,12 +20,13 @@ using namespace vorion::isasim::testing;
 
 namespace {
 
-constexpr auto Operations = joined(
-    Computations,
-    std::to_array<Op>({Op::RV_LUI, Op::RV_AUIPC, Op::RV_CSRRS, Op::RV_FENCE,
-                       Op::VX_VOTE_ALL, Op::VX_VOTE_ANY, Op::VX_VOTE_UNI,
-                       Op::VX_VOTE_BALLOT, Op::VX_SHFL_UP, Op::VX_SHFL_DOWN,
-                       Op::VX_SHFL_BFLY, Op::VX_SHFL_IDX}));
+const std::vector<Op> Operations = [] {
+  std::vector<Op> Ops = computations();
+  Ops.insert(Ops.end(), {Op::RV_CSRRS, Op::RV_FENCE});
+  return Ops;
+}();
+
+const std::vector<Op> MemoryAccesses = accesses();
 
 constexpr Op Branches[] = {
 #define BRANCH(OP, CONDITION) Op::OP,
@@ -133,7 +134,7 @@ public:
     F.Imm = static_cast<int32_t>(below(9)) * 4 - 16;
     if (below(300) == 0)
       F.Imm += 1;
-    const Op O = oneOf(Accesses);
+    const Op O = oneOf(MemoryAccesses);
     // An atomic without a result.
     if (below(4) == 0)
       F.Rd = 0;
@@ -164,7 +165,7 @@ public:
     F.Rs1 = Address;
     F.Rs2 = any();
     F.Imm = static_cast<int32_t>(below(3)) * 4;
-    Words.push_back(encode(oneOf(Accesses), F));
+    Words.push_back(encode(oneOf(MemoryAccesses), F));
   }
 
   uint32_t branch(int32_t Bytes) {

@@ -1,5 +1,6 @@
 #include "observe/check/Uninit.h"
 
+#include "core/Effects.h"
 #include "core/Isa.h"
 #include "core/State.h"
 #include "raster/WorkLog.h"
@@ -121,50 +122,15 @@ void UninitCheck::use(const Step &S, Warp &W, unsigned Register, uint32_t Lanes,
 
 void UninitCheck::checkUses(const Step &S, Warp &W) {
   const Decoded &D = S.Insn;
-  const InsnInfo &Info = D.info();
-  const uint32_t Last = lastLane(S.LaneMask);
-  if (Info.Fmt == Format::B) {
-    use(S, W, D.Rs1, AllLanes, "branch on a value");
-    use(S, W, D.Rs2, AllLanes, "branch on a value");
-    return;
+  for (const OperandUse &U : effectsOf(D.Opcode).Uses) {
+    if (U.Which == UsedOperand::None)
+      break;
+    const unsigned Register = U.Which == UsedOperand::Rs1 ? D.Rs1 : D.Rs2;
+    const uint32_t Lanes = U.LastLane ? lastLane(S.LaneMask) : AllLanes;
+    use(S, W, Register, Lanes, U.What);
+    if (U.Which == UsedOperand::Rs2 && D.info().Pairs && Register != 0)
+      use(S, W, Register + 1, Lanes, U.What);
   }
-  switch (D.Opcode) {
-  case Op::VX_SPLIT:
-  case Op::VX_SPLIT_N:
-    use(S, W, D.Rs1, AllLanes, "condition");
-    break;
-  case Op::VX_PRED:
-  case Op::VX_PRED_N:
-    use(S, W, D.Rs1, AllLanes, "condition");
-    use(S, W, D.Rs2, Last, "mask");
-    break;
-  case Op::VX_TMC:
-    use(S, W, D.Rs1, Last, "mask");
-    break;
-  case Op::VX_BAR:
-  case Op::VX_WSPAWN:
-    use(S, W, D.Rs1, Last, "operand");
-    use(S, W, D.Rs2, Last, "operand");
-    break;
-  case Op::RV_JALR:
-    use(S, W, D.Rs1, AllLanes, "jump to an address");
-    break;
-  case Op::RV_CSRRW:
-  case Op::RV_CSRRS:
-  case Op::RV_CSRRC:
-    use(S, W, D.Rs1, AllLanes, "write of a CSR with a value");
-    break;
-  default:
-    break;
-  }
-  if (!S.Access)
-    return;
-  use(S, W, D.Rs1, AllLanes, "access to an address");
-  if (S.Access->What != MemoryAccess::Atomic)
-    return;
-  use(S, W, D.Rs2, AllLanes, "atomic with a value");
-  if (Info.Pairs && D.Rs2 != 0)
-    use(S, W, D.Rs2 + 1, AllLanes, "atomic with a value");
 }
 
 UninitCheck::Word UninitCheck::load(const Step &S) {
@@ -187,22 +153,10 @@ UninitCheck::Word UninitCheck::load(const Step &S) {
   return Result;
 }
 
-/// What the instruction at hand, which does not store, makes.
-UninitCheck::Word UninitCheck::resultOf(const Step &S, Warp &W) {
+/// The definedness of what an instruction gives each lane of its own operands.
+UninitCheck::Word UninitCheck::resultOfOwn(const Step &S, const Warp &W) const {
   const Decoded &D = S.Insn;
   switch (D.Opcode) {
-  case Op::VX_VOTE_ALL:
-  case Op::VX_VOTE_ANY:
-  case Op::VX_VOTE_UNI:
-  case Op::VX_VOTE_BALLOT:
-    // One lane's value shows in all.
-    return Word::wholeIn(S.LaneMask & ~W.Good[D.Rs1].whole() ? 0 : AllLanes);
-  case Op::VX_SHFL_UP:
-  case Op::VX_SHFL_DOWN:
-  case Op::VX_SHFL_BFLY:
-  case Op::VX_SHFL_IDX:
-    // Which lane's value comes is not followed: bad only if all are.
-    return Word::wholeIn(S.LaneMask & W.Good[D.Rs1].whole() ? AllLanes : 0);
   case Op::RV_ADDI:
     if (D.Imm == 0)
       return W.Good[D.Rs1];
@@ -215,12 +169,28 @@ UninitCheck::Word UninitCheck::resultOf(const Step &S, Warp &W) {
     if (D.Rs1 == D.Rs2)
       return W.Good[FBase + D.Rs1];
     break;
-  default:
+  default: // any other operation of the lane's own operands
     break;
   }
-  if (S.Access)
-    return load(S);
   return Word::wholeIn(goodSource(S, W) | maskedSource(S, W));
+}
+
+UninitCheck::Word UninitCheck::resultOf(const Step &S, const Warp &W) {
+  const uint32_t Good = W.Good[S.Insn.Rs1].whole();
+  switch (effectsOf(S.Insn.Opcode).Result) {
+  case Definedness::NoResult:
+  case Definedness::Always:
+    return Word::wholeIn(AllLanes);
+  case Definedness::OwnOperands:
+    return resultOfOwn(S, W);
+  case Definedness::EveryLane:
+    return Word::wholeIn(S.LaneMask & ~Good ? 0 : AllLanes);
+  case Definedness::AnyLane:
+    return Word::wholeIn(S.LaneMask & Good ? AllLanes : 0);
+  case Definedness::FromMemory:
+    return load(S);
+  }
+  __builtin_unreachable();
 }
 
 void UninitCheck::fetch(const Step &S) {
@@ -233,8 +203,7 @@ void UninitCheck::fetch(const Step &S) {
   if (Info.Rd == File::X && S.Insn.Rd == StackRegister)
     std::copy_n(words(S, StackRegister), W.StackPointer.size(),
                 W.StackPointer.begin());
-  if (!S.Access || S.Access->What != MemoryAccess::Store)
-    W.Result = resultOf(S, W);
+  W.Result = resultOf(S, W);
 }
 
 void UninitCheck::checkStore(const Step &S, Warp &W) {

@@ -62,7 +62,8 @@ private:
   void checkUses(const Step &S, Warp &W);
   void checkStore(const Step &S, Warp &W);
   Word load(const Step &S);
-  Word resultOf(const Step &S, Warp &W);
+  Word resultOfOwn(const Step &S, const Warp &W) const;
+  Word resultOf(const Step &S, const Warp &W);
   ShadowBits *shadowOf(uint32_t Address, const Step &S);
   void moveStack(const Commit &C, Warp &W);
 

@@ -1,5 +1,7 @@
 #include "observe/numerics/ShadowMath.h"
 
+#include "core/Effects.h"
+
 // The lists of instructions are written for these.
 #define VORION_LEVEL shadow
 #include "core/Level.h"
@@ -41,39 +43,82 @@ VORION_INLINE uint32_t bitsOf(I64 Condition) {
 
 using namespace shadow;
 
-static std::array<NumericKind, NumOps> makeKinds() {
-  std::array<NumericKind, NumOps> Kinds{};
-  const auto Set = [&](Op O, NumericKind K) {
-    Kinds[static_cast<unsigned>(O)] = K;
-  };
-#define INT(OP, RESULT) Set(Op::OP, NumericKind::Integer);
-#include "core/insns/integer.def"
-#define FLOAT(OP, SOFT, RESULT) Set(Op::OP, NumericKind::Float);
-#define FUSED(OP, SOFT, FACTOR, ADDEND) Set(Op::OP, NumericKind::Float);
-#define COMPARE(OP, CONDITION, QUIET) Set(Op::OP, NumericKind::Compare);
-#define MINMAX(OP, IS_MIN) Set(Op::OP, NumericKind::MinMax);
-#define TOINT(OP, SIGNED, SOFT) Set(Op::OP, NumericKind::ToInt);
-#define FROMINT(OP, SIGNED, SOFT) Set(Op::OP, NumericKind::FromInt);
-#include "core/insns/float.def"
-#define LOAD(OP, T) Set(Op::OP, NumericKind::Load);
-#define STORE(OP, T) Set(Op::OP, NumericKind::Store);
-#define AMO(OP, KIND) Set(Op::OP, NumericKind::Atomic);
-#include "core/insns/memory.def"
-#define BRANCH(OP, CONDITION) Set(Op::OP, NumericKind::Decide);
-#include "core/insns/branch.def"
-  for (const Op O :
-       {Op::VX_SPLIT, Op::VX_SPLIT_N, Op::VX_PRED, Op::VX_PRED_N,
-        Op::VX_VOTE_ALL, Op::VX_VOTE_ANY, Op::VX_VOTE_UNI, Op::VX_VOTE_BALLOT})
-    Set(O, NumericKind::Decide);
-  for (const Op O :
-       {Op::VX_SHFL_UP, Op::VX_SHFL_DOWN, Op::VX_SHFL_BFLY, Op::VX_SHFL_IDX})
-    Set(O, NumericKind::Shuffle);
+/// What an operation of each lane's own operands is.
+static NumericKind ofOwnOperands(Op O) {
+  switch (O) {
   // These stand among the integer operations, since they are ones on bits.
-  for (const Op O : {Op::RV_FMV_X_W, Op::RV_FMV_W_X})
-    Set(O, NumericKind::MoveBits);
-  for (const Op O : {Op::RV_FSGNJ_S, Op::RV_FSGNJN_S, Op::RV_FSGNJX_S})
-    Set(O, NumericKind::Sign);
-  Set(Op::RV_FCLASS_S, NumericKind::Other);
+  case Op::RV_FMV_X_W:
+  case Op::RV_FMV_W_X:
+    return NumericKind::MoveBits;
+  case Op::RV_FSGNJ_S:
+  case Op::RV_FSGNJN_S:
+  case Op::RV_FSGNJX_S:
+    return NumericKind::Sign;
+  case Op::RV_FCLASS_S:
+    return NumericKind::Other;
+  default:
+    break;
+  }
+  switch (O) {
+#define INT(OP, RESULT) case Op::OP:
+#include "core/insns/integer.def"
+    return NumericKind::Integer;
+#define FLOAT(OP, SOFT, RESULT) case Op::OP:
+#define FUSED(OP, SOFT, FACTOR, ADDEND) case Op::OP:
+#include "core/insns/float.def"
+    return NumericKind::Float;
+#define COMPARE(OP, CONDITION, QUIET) case Op::OP:
+#include "core/insns/float.def"
+    return NumericKind::Compare;
+#define MINMAX(OP, IS_MIN) case Op::OP:
+#include "core/insns/float.def"
+    return NumericKind::MinMax;
+#define TOINT(OP, SIGNED, SOFT) case Op::OP:
+#include "core/insns/float.def"
+    return NumericKind::ToInt;
+#define FROMINT(OP, SIGNED, SOFT) case Op::OP:
+#include "core/insns/float.def"
+    return NumericKind::FromInt;
+  default: // lui and auipc
+    return NumericKind::Other;
+  }
+}
+
+static NumericKind kindOf(Op O) {
+  switch (effectsOf(O).Class) {
+  case EffectClass::LaneWise:
+    return ofOwnOperands(O);
+  case EffectClass::Shuffle:
+    return NumericKind::Shuffle;
+  case EffectClass::Vote:
+  case EffectClass::Split:
+  case EffectClass::Predicate:
+  case EffectClass::Branch:
+    return NumericKind::Decide;
+  case EffectClass::Load:
+    return NumericKind::Load;
+  case EffectClass::Store:
+    return NumericKind::Store;
+  case EffectClass::Atomic:
+    return NumericKind::Atomic;
+  case EffectClass::Join:
+  case EffectClass::SetMask:
+  case EffectClass::Warps:
+  case EffectClass::Fence:
+  case EffectClass::Jump:
+  case EffectClass::IndirectJump:
+  case EffectClass::Trap:
+  case EffectClass::CsrRegister:
+  case EffectClass::CsrImmediate:
+    return NumericKind::Other;
+  }
+  __builtin_unreachable();
+}
+
+static std::array<NumericKind, NumOps> makeKinds() {
+  std::array<NumericKind, NumOps> Kinds;
+  for (unsigned N = 0; N != NumOps; ++N)
+    Kinds[N] = kindOf(static_cast<Op>(N));
   return Kinds;
 }
 
@@ -132,27 +177,22 @@ uint32_t decidedLanes(Op O, const LaneWords &A, const LaneWords &B) {
   case Op::OP:                                                                 \
     return laneBits(CONDITION);
 #include "core/insns/branch.def"
-  case Op::VX_SPLIT:
-  case Op::VX_SPLIT_N:
-  case Op::VX_PRED:
-  case Op::VX_PRED_N:
-    return laneBits((A & 1U) != splat(0));
   default:
-    return laneBits(A != splat(0));
+    return laneBits((effectsOf(O).ChangesMask ? A & 1U : A) != splat(0));
   }
 }
 
-unsigned shuffleSource(Op O, unsigned Lane, uint32_t Control) {
-  const uint32_t B = Control & 63, Segment = Control >> 12 & 63;
+unsigned shuffleSource(Op O, unsigned LaneNumber, uint32_t Control) {
+  const auto Lane = static_cast<int>(LaneNumber);
+  const int B = Control & 63, Segment = Control >> 12 & 63;
+  const int Lo = Lane & Segment;
   switch (O) {
-  case Op::VX_SHFL_UP:
-    return Lane - B;
-  case Op::VX_SHFL_DOWN:
-    return Lane + B;
-  case Op::VX_SHFL_BFLY:
-    return Lane ^ B;
+#define SHUFFLE(OP, SOURCE, VALID)                                             \
+  case Op::OP:                                                                 \
+    return static_cast<unsigned>(SOURCE);
+#include "core/insns/shuffle.def"
   default:
-    return (Lane & Segment) | (B & ~Segment);
+    __builtin_unreachable(); // Effects_test: every shuffle is in the list
   }
 }
 
