@@ -45,6 +45,12 @@ TEST(Neighbours, AreThoseOfTryingAll) {
   }
 }
 
+// Each point would otherwise be compared with every other one.
+TEST(Neighbours, AMillionInOnePlaceTakeNoTimeEach) {
+  const std::vector<float> P(3 * 1'000'000, 1.5F);
+  EXPECT_EQ(meanNeighbourDistances(P), std::vector<double>(1'000'000, 0));
+}
+
 TEST(Neighbours, OnePointHasNone) {
   EXPECT_EQ(meanNeighbourDistances({1, 2, 3}), std::vector<double>{0});
   EXPECT_TRUE(meanNeighbourDistances({}).empty());
