@@ -50,9 +50,8 @@ def sources(inputs, folder):
             with open(path, "w", encoding="utf-8") as out:
                 for define in program["defines"]:
                     out.write("#define " + define.replace("=", " ", 1) + "\n")
-                for part in program["files"]:
-                    with open(os.path.join(ROOT, "apps", "splat", "kernels", part), encoding="utf-8") as file:
-                        out.write(file.read() + "\n")
+                for root in program["files"]:
+                    out.write(f'#include "{os.path.join(ROOT, "apps", "splat", "kernels", root)}"\n')
             yield program["name"], path
 
 

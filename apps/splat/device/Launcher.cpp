@@ -98,20 +98,9 @@ std::vector<StageReport> Launcher::takeStages() {
 Expected<std::string> Launcher::sourceOf(const ProgramSpec &Spec) const {
   // No operation may be fused or reordered: the paths, the reference and the
   // rasterizer round alike (docs/abi.md).
-  std::string Source = "#pragma OPENCL FP_CONTRACT OFF\n";
-  for (const std::string &File : Spec.Files) {
-    // The compiler's messages then name our files.
-    Source += fmt::format("#line 1 \"{}\"\n", File);
-    if (KernelFolder.empty()) {
-      Source += kernelSource(File);
-      continue;
-    }
-    auto Text = readRegularFile(KernelFolder + "/" + File);
-    if (!Text)
-      return Text.error();
-    Source.append(reinterpret_cast<const char *>(Text->data()), Text->size());
-  }
-  return Source;
+  const auto Text = KernelFolder.empty() ? programText(Spec.File)
+                                         : programText(Spec.File, KernelFolder);
+  return Text ? "#pragma OPENCL FP_CONTRACT OFF\n" + *Text : Text;
 }
 
 std::string Launcher::keyOf(const std::string &Source,

@@ -20,11 +20,11 @@
 
 namespace vorion::splat {
 
-/// One program: the kernel sources it is made of, in order, and the macros it
-/// is built with.
+/// One program: its kernel source, which includes what it uses, and the macros
+/// it is built with.
 struct ProgramSpec {
   std::string Name;
-  std::vector<std::string> Files;   ///< names in kernels/
+  std::string File;                 ///< of kernels/
   std::vector<std::string> Defines; ///< "NAME" or "NAME=value"
 
   bool operator==(const ProgramSpec &) const = default;

@@ -3,6 +3,11 @@
 // camera that part is a small difference of large numbers, which is taken here of
 // sums of two floats, (high, low). A rest along the ray is no error: it does not
 // move on the picture.
+#pragma once
+
+#include "activate.cl"
+#include "covariance.cl"
+#include "layout.h"
 
 static float2 product2(float a, float b) {
   const float high = a * b;

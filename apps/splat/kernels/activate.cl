@@ -3,6 +3,7 @@
 // floats, good to about 2^-40, so that the device, the host and the reference
 // start from the same fp32 bits (T. J. Dekker 1971, "A floating-point technique
 // for extending the available precision").
+#pragma once
 
 static float2 two_sum(float a, float b) {
   const float sum = a + b;

@@ -2,6 +2,11 @@
 // no camera changes is computed once. Activated parameters take the places of
 // the stored ones, in blocks (layout.h); project.cl loads them with
 // USE_ACTIVATED_SCENE.
+
+#include "activate.cl"
+#include "layout.h"
+#include "planes.h"
+
 __kernel void activate_scene(__global float *all, uint count) {
   const uint i = get_global_id(0);
   if (i >= count)

@@ -1,4 +1,9 @@
 // A Gaussian's axes, and normal numbers, for samples of it.
+#pragma once
+
+#include "activate.cl"
+#include "layout.h"
+#include "philox.h"
 
 typedef struct {
   float3 axis[3]; // unit vectors, world

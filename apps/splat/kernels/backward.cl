@@ -1,4 +1,7 @@
 // What the ways back through a camera share.
+#pragma once
+
+#include "covariance.cl"
 
 #define KEEP_SEEN_POINTS
 

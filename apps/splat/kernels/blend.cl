@@ -3,6 +3,15 @@
 // order (docs/abi.md). The list goes through local memory in batches, and the
 // group stops when none of its pixels can change any more. The picture has the
 // same bits for every TILE_SIZE and GROUP.
+#pragma once
+
+#include "layout.h"
+#include "window.h"
+#ifdef EXP_DEGREE
+#include "units.cl"
+#else
+#include "falloff.cl"
+#endif
 
 // Small, since a pixel that is done waits for the batch's end: letting lanes leave
 // the loop one by one costs more, in instructions on trained scenes.

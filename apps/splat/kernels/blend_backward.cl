@@ -3,6 +3,11 @@
 // over the work-items, one Gaussian a work-item, in a fixed order and without
 // atomics.
 
+#include "lane_tree.cl"
+#include "layout.h"
+#include "pixel_backward.cl"
+#include "window.h"
+
 #define PIXELS (TILE_SIZE * TILE_SIZE)
 #define OWN (PIXELS / LANES)
 

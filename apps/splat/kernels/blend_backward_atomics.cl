@@ -5,6 +5,14 @@
 // paper's rasterizer is compared with are kernels that sum so. WARP_SUMS: the
 // pixels of a warp are added up first (warp_sums.cl).
 
+#include "atomic_sum.cl"
+#include "layout.h"
+#include "pixel_backward.cl"
+#include "window.h"
+#ifdef WARP_SUMS
+#include "warp_sums.cl"
+#endif
+
 // As many as blend.cl has.
 #define BATCH 64
 #define TILE_PIXELS (TILE_SIZE * TILE_SIZE)

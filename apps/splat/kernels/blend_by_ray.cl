@@ -5,6 +5,8 @@
 // several times. Each time it finds the RAY_WINDOW nearest Gaussians behind
 // those that it has blended. The picture has the same bits for every RAY_WINDOW.
 
+#include "blend.cl"
+
 // The nearest Gaussian comes first. Empty places have alpha 0.
 typedef struct {
   float depth[RAY_WINDOW], alpha[RAY_WINDOW];

@@ -1,4 +1,8 @@
 // What Gaussians are ordered by.
+#pragma once
+
+#include "activate.cl"
+#include "layout.h"
 
 // Depth along the camera's axis, rounded once: it decides the order, and two
 // Gaussians that the exact depths order must not change places by rounding.

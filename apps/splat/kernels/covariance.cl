@@ -1,6 +1,9 @@
 // From a scaled, rotated Gaussian to its covariance on the picture (EWA:
 // Zwicker et al. 2001, "EWA volume splatting", with the 3DGS clamp). The order
 // of operations is that of reference/Projection.h, which gives the same bits.
+#pragma once
+
+#include "layout.h"
 
 // Where a kernel keeps the camera.
 #ifndef VIEW_SPACE

@@ -1,6 +1,8 @@
 // `beside` is the point's part to the right of the ray, level, and that down, at
 // right angles to the ray. `ray` has the sines and cosines of the ray's longitude
 // and latitude. The place is the one nearest to the ray's.
+#pragma once
+
 static float2 crop_mean(VIEW_SPACE const splat_view *view,
                         VIEW_SPACE const splat_lens *lens,
                         CROP_SPACE const splat_crop *crop, float2 beside,

@@ -2,6 +2,8 @@
 // `beside` is the point's part along the two directions at right angles to the
 // ray: out, by a greater angle, and around the axis. `ray` has t0, its cosine
 // and sine, and o0.
+#pragma once
+
 static float2 crop_mean(VIEW_SPACE const splat_view *view,
                         VIEW_SPACE const splat_lens *lens,
                         CROP_SPACE const splat_crop *crop, float2 beside,

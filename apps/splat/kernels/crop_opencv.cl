@@ -1,6 +1,8 @@
 // `beside` is x and y less those of the ray at depth z. `ray` has the ray's x/z
 // and y/z, a0 and b0: with a = a0 + da the place's terms less the ray's are
 // multiples of da and db, so that nothing cancels.
+#pragma once
+
 static float2 crop_mean(VIEW_SPACE const splat_view *view,
                         VIEW_SPACE const splat_lens *lens,
                         CROP_SPACE const splat_crop *crop, float2 beside,

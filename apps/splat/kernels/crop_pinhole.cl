@@ -1,4 +1,6 @@
 // `beside` is x and y less those of the ray at depth z.
+#pragma once
+
 static float2 crop_mean(VIEW_SPACE const splat_view *view,
                         CROP_SPACE const splat_crop *crop, float2 beside,
                         float z) {

@@ -1,6 +1,9 @@
 // Finds the blocks of Gaussians (layout.h) of which a pinhole sees none, by the
 // sphere that holds their means and by their largest standard deviation.
 
+#include "covariance.cl"
+#include "layout.h"
+
 // Deviations that a support reaches at most: 3, or where alpha is the least
 // that is blended, at an opacity of 1.
 #if defined(SUPPORT_EXACT)

@@ -2,6 +2,8 @@
 // Row r of the deal gives each rasterizer one job, in rising order if r is even,
 // else in falling order, and belongs to core r modulo the cores of each socket.
 // So the rule knows list lengths and nothing of time.
+#pragma once
+
 #include <vorion.h>
 
 typedef struct {

@@ -4,6 +4,8 @@
 // writes its share of them when it comes to an end, and they do not take the
 // memory from those that still blend (docs/ideas.md, "Dealing by the last
 // frame").
+#pragma once
+
 #include <vorion.h>
 
 // A warp ranks and deals.

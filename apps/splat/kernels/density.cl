@@ -3,6 +3,11 @@
 // number of Gaussians that each becomes, so the new order is that of the old
 // ones, what one becomes side by side: it depends on no order of arrival.
 
+#include "activate.cl"
+#include "axes.cl"
+#include "layout.h"
+#include "philox.h"
+
 enum { FATE_DROP = 0, FATE_KEEP = 1, FATE_CLONE = 2, FATE_SPLIT = 3 };
 
 static uint becomes(uint fate) {

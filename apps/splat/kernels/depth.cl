@@ -2,6 +2,8 @@
 // more with depths for colours, so that the first channel of a pixel is the sum of
 // its weights times depths, and nothing that draws the picture knows of it.
 
+#include "layout.h"
+
 // `depths`: the keys that project wrote. What no tile sees has no record.
 __kernel void depths_for_colors(__global const uint *depths,
                                 __global splat_gaussian *records, uint count) {

@@ -4,6 +4,8 @@
 // adds to the way back through the picture. Gaussians that no tile sees have
 // neither record nor sums.
 
+#include "layout.h"
+
 __kernel void depth_records(__global const uint *depths,
                             __global const splat_gaussian *records,
                             __global splat_gaussian *to, uint count) {

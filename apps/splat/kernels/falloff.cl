@@ -1,5 +1,6 @@
 // e^power for power in [-80, 0], within 1.1 ulp: what is left of exp() when
 // nothing can overflow, underflow or be NaN. A third of the instructions.
+#pragma once
 
 static float falloff(float power) {
   // Adding 1.5 * 2^23 rounds to a whole number, which the low bits then hold.

@@ -1,4 +1,5 @@
 // How the cores' way back adds up what 16 work-items have.
+#pragma once
 
 #define LANES 16
 

@@ -1,7 +1,6 @@
 /// Structures that the host program and its kernels share. Compiled as C++ and
 /// as OpenCL C, so only 4-byte members and nothing of either language.
-#ifndef SPLAT_LAYOUT_H
-#define SPLAT_LAYOUT_H
+#pragma once
 
 // NOLINTBEGIN(readability-identifier-naming): OpenCL names, as in docs/abi.md.
 
@@ -197,5 +196,3 @@ enum {
 };
 
 // NOLINTEND(readability-identifier-naming)
-
-#endif

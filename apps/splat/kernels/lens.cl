@@ -1,5 +1,4 @@
-// What cameras other than pinholes share. A file of the model (lens_*.cl) comes
-// before this one and has
+// What cameras other than pinholes share. The model's own file (lens_*.cl) has
 //
 //     lens_at         the place of a point in the camera's axes, in units of the
 //                     focal lengths; false where the camera does not see it
@@ -8,6 +7,21 @@
 //     lens_curvature  dL/d(point) from dL/d(rows)
 //     lens_is_held    whether it does so, if `hold`
 //     LENS_HOLDS      whether projecting holds it
+#pragma once
+
+#include "covariance.cl"
+#include "layout.h"
+#if USE_OPENCV
+#include "lens_opencv.cl"
+#elif USE_FISHEYE
+#include "lens_fisheye.cl"
+#elif USE_ORTHOGRAPHIC
+#include "lens_orthographic.cl"
+#elif USE_EQUIRECTANGULAR
+#include "lens_equirectangular.cl"
+#else
+#include "lens_pinhole.cl"
+#endif
 
 // Rows in pixels at a point `p` in the camera's axes.
 static lens_rows lens_rows_at(VIEW_SPACE const splat_view *view,

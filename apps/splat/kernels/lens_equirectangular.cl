@@ -1,5 +1,10 @@
 // The full sphere: longitude to the right and latitude down, both from straight
 // ahead. Depth is the distance from the camera.
+#pragma once
+
+#include "covariance.cl"
+#include "layout.h"
+
 #define LENS_BY_DISTANCE
 #define LENS_HOLDS true
 

@@ -1,6 +1,11 @@
 // OpenCV's fisheye: a point at the angle t from the axis is seen at the distance
 // t (1 + k1 t^2 + k2 t^4 + k3 t^6 + k4 t^8) from the principal point. Depth is
 // the distance from the camera, so that it sees what is beside and behind it.
+#pragma once
+
+#include "covariance.cl"
+#include "layout.h"
+
 #define LENS_BY_DISTANCE
 #define LENS_HOLDS false
 

@@ -1,5 +1,10 @@
 // A pinhole with OpenCV's distortion: radial (a ratio of polynomials of r^2),
 // tangential and of a thin prism. Depth is z.
+#pragma once
+
+#include "covariance.cl"
+#include "layout.h"
+
 #define LENS_HOLDS (USE_FIELD_OF_VIEW != 0)
 
 // The ratio and its derivatives by q = r^2.

@@ -1,4 +1,9 @@
 // Parallel rays: x and y as they are, at any depth.
+#pragma once
+
+#include "covariance.cl"
+#include "layout.h"
+
 #define LENS_HOLDS false
 
 static bool lens_at(VIEW_SPACE const splat_lens *lens, float3 p, float2 *at) {

@@ -1,4 +1,9 @@
 // A pinhole, for the unscented transform and rolling shutters.
+#pragma once
+
+#include "covariance.cl"
+#include "layout.h"
+
 #define LENS_HOLDS (USE_FIELD_OF_VIEW != 0)
 
 static bool lens_at(VIEW_SPACE const splat_lens *lens, float3 p, float2 *at) {

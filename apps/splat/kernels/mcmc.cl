@@ -6,6 +6,11 @@
 // Draws are by integer weights, whose sums are exact, and every number comes
 // from a counter: nothing depends on an order of arrival.
 
+#include "activate.cl"
+#include "axes.cl"
+#include "layout.h"
+#include "philox.h"
+
 // The largest opacity below 1, and the most that share one place.
 #define MOST_OPACITY 0.99999988f
 #define MOST_SHARES 51

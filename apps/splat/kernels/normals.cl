@@ -1,6 +1,11 @@
 // Where normals are asked for (effects/Normals.cpp): the lists are blended once
 // more with normals for colours, as depth.cl does with depths.
 
+#include "activate.cl"
+#include "covariance.cl"
+#include "layout.h"
+#include "planes.h"
+
 // A Gaussian's normal is its shortest axis, the first of equal ones, on the side
 // that the camera sees; in the world's axes.
 static float3 normal_of(VIEW_SPACE const splat_view *view,

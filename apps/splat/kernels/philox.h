@@ -2,8 +2,7 @@
 /// wherever and in whatever order they are asked for. Philox 4x32 of ten rounds
 /// (J. K. Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
 /// Compiled as C++ and as OpenCL C.
-#ifndef SPLAT_PHILOX_H
-#define SPLAT_PHILOX_H
+#pragma once
 
 // NOLINTBEGIN(readability-identifier-naming): OpenCL names, as in layout.h.
 
@@ -46,5 +45,3 @@ static inline float philox_unit(uint word) {
 }
 
 // NOLINTEND(readability-identifier-naming)
-
-#endif

@@ -1,5 +1,9 @@
 // The way back through one Gaussian in one pixel, with the arithmetic of
 // docs/abi.md, "Backward". RECORD_SPACE: where the Gaussian lies.
+#pragma once
+
+#include "falloff.cl"
+#include "layout.h"
 
 #ifdef CLAMP_STOPS
 #define CLAMPED(wanted) ((wanted) > 0.99f)

@@ -6,6 +6,9 @@
 // arm x (gradient by the mean, without what came through the direction), and of
 // what turning each Gaussian itself gives ("torque"). All in the world's axes.
 
+#include "layout.h"
+#include "pose.h"
+
 #define LANES 16
 
 // `sums` gets POSE_TERMS of each group's `stretch` Gaussians, added up in a fixed

@@ -1,7 +1,6 @@
 /// What training adds to layout.h where it corrects poses. Compiled as C++ and
 /// as OpenCL C.
-#ifndef SPLAT_POSE_H
-#define SPLAT_POSE_H
+#pragma once
 
 // NOLINTBEGIN(readability-identifier-naming): OpenCL names, as in layout.h.
 
@@ -14,5 +13,3 @@ enum {
 };
 
 // NOLINTEND(readability-identifier-naming)
-
-#endif

@@ -3,6 +3,35 @@
 // A Gaussian that no tile sees gets CULLED and the reason as its key, an empty
 // rectangle and a record of no meaning.
 
+#include "activate.cl"
+#include "camera_depth.cl"
+#include "covariance.cl"
+#include "has_lens.h"
+#include "layout.h"
+#include "planes.h"
+#include "project_memory.cl"
+#include "rectangle.cl"
+#include "sh.cl"
+#include "support.cl"
+#if HAS_LENS
+#include "lens.cl"
+#if USE_ROLLING_SHUTTER
+#include "rolling.cl"
+#endif
+#if USE_UNSCENTED
+#include "unscented.cl"
+#endif
+#endif
+#if USE_NEEDLES
+#include "across.cl"
+#endif
+#if USE_CROP
+#include "crop.cl"
+#endif
+#if USE_EQUIRECTANGULAR
+#include "project_copies.cl"
+#endif
+
 // x - x is 0 for finite x and NaN otherwise.
 static bool all_finite(float a, float b) { return (a - a) + (b - b) == 0.0f; }
 

@@ -3,6 +3,35 @@
 // that what must vanish for round Gaussians does. Gaussians that no tile sees
 // get 0.
 
+#include "activate.cl"
+#include "backward.cl"
+#include "covariance.cl"
+#include "has_lens.h"
+#include "layout.h"
+#include "planes.h"
+#include "sh_backward.cl"
+#ifdef POSES
+#include "pose.h"
+#endif
+#if HAS_LENS
+#include "lens.cl"
+#if USE_ROLLING_SHUTTER
+#include "rolling.cl"
+#endif
+#if USE_UNSCENTED
+#include "unscented.cl"
+#endif
+#endif
+#if USE_ROLLING_SHUTTER
+#include "rolling_backward.cl"
+#endif
+#if USE_UNSCENTED
+#include "unscented_backward.cl"
+#endif
+#if USE_NEEDLES
+#include "across.cl"
+#endif
+
 // Of the parameters as they are stored, or of activated scales and opacities.
 #ifdef STORED_PARAMETERS
 #define BY_SCALE(gradient, scale) ((gradient) * (scale))

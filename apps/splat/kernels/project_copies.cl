@@ -1,6 +1,13 @@
 // The picture closes: what leaves it on one side comes back on the other. So a
 // Gaussian stands there once more on either side, a picture's width away, where
 // it reaches in. `x` is its own place.
+#pragma once
+
+#include "layout.h"
+#include "project_memory.cl"
+#include "rectangle.cl"
+#include "support.cl"
+
 static uint project_again(__local const workspace *c, float x, uint key,
                           uint number, uint lane, uint effects,
                           __local splat_gaussian *g, uint2 *rectangle) {

@@ -1,5 +1,9 @@
 // What a group of project.cl keeps in local memory, and which of a scene's words
 // it asks for ahead of their use.
+#pragma once
+
+#include "has_lens.h"
+#include "layout.h"
 
 // Work-items of a group.
 #ifndef LANES

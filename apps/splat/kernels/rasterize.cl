@@ -1,6 +1,15 @@
 // Blending by the rasterizers: every core starts the tile commands that are its
 // own and waits for them at the end, or in a later kernel (docs/rasterizer.md).
 // One group a core.
+
+#include "layout.h"
+#include "window.h"
+#ifdef KEEP_COUNTS
+#include "deal_last_frame.cl"
+#else
+#include "deal.cl"
+#endif
+
 #include <vorion_raster.h>
 
 _Static_assert(sizeof(splat_gaussian) == sizeof(vx_gaussian),

@@ -1,6 +1,11 @@
 // Blending's way back by the rasterizers: every core starts the tiles that are
 // its own, takes what is handed over, and stores it where the pairs of a
 // Gaussian lie side by side (docs/rasterizer.md, "The backward mode").
+
+#include "deal.cl"
+#include "layout.h"
+#include "window.h"
+
 #include <vorion_raster.h>
 
 typedef struct {

@@ -2,6 +2,11 @@
 // pixel's ray. As in StopThePop (Radl et al. 2024), that is the depth at which
 // the Gaussian's density along the ray is largest.
 
+#include "activate.cl"
+#include "covariance.cl"
+#include "layout.h"
+#include "planes.h"
+
 // From lengths along a Gaussian's axes to standard deviations, all of them times
 // the smallest scale. That common factor changes no depth, and keeps numbers
 // finite where a scale is 0.

@@ -5,6 +5,8 @@
 // message. From its lowest bits on: 12 of x0, 12 of y0, four each of the width
 // and the height less one. All ones of those say that the second word is
 // needed. A picture has at most 4096 tiles a side (render/Pipeline.cpp).
+#pragma once
+
 enum { LONG_RECTANGLE = 0xff };
 
 static uint2 make_rectangle(uint x0, uint y0, uint x1, uint y1) {

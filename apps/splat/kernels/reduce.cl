@@ -2,6 +2,9 @@
 // tiles. Each partial sum keeps what rounding takes from it (T. J. Dekker 1971):
 // hundreds of tiles lose no more than one. Without atomics, in a fixed order.
 
+#include "activate.cl"
+#include "layout.h"
+
 #ifdef ABSOLUTE_SUMS
 #define ALL_SUMS (SUM_WORDS + ABSOLUTE_SUMS)
 #else

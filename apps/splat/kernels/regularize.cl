@@ -1,6 +1,10 @@
 // Weights on opacities and scales in the loss: `opacity` times their mean, and
 // `scale` times the mean of all three scales. Adds their gradients by what is
 // stored; both are over the number of summands already.
+
+#include "activate.cl"
+#include "layout.h"
+
 __kernel void regularize(__global const float *geometry,
                          __global float *gradients, uint count, float opacity,
                          float scale) {

@@ -1,6 +1,9 @@
 // A camera that moves while it exposes its picture (docs/cameras.md, "Rolling
 // shutters"). A point is seen from where the camera is at the moment at which
 // the point's own pixel is exposed: an equation, which Newton's method solves.
+#pragma once
+
+#include "lens.cl"
 
 // Of a point in the axes of the camera's pose: what it is to the camera at its
 // moment, how that changes in a whole exposure, and its place.

@@ -1,4 +1,8 @@
 // The way back through what a rolling shutter does to a footprint (rolling.cl).
+#pragma once
+
+#include "backward.cl"
+#include "rolling.cl"
 
 // dL/d(step of the still camera's picture) from that of the picture.
 static float2 rolling_back(rolling_shear a, float2 by) {

@@ -1,6 +1,10 @@
 // Colour from spherical harmonics. Bands are effects (effects/ShBands.cpp): what
 // is not done is neither in the buffer nor, without flags, in the program. Signs
 // are those of the convention that 3DGS scenes store.
+#pragma once
+
+#include "planes.h"
+#include "sh_basis.h"
 
 // Adds basis * coefficient k of every channel.
 #define ADD_SH(k, basis)                                                       \

@@ -1,5 +1,9 @@
 // Colour's way back to the harmonics and the direction (sh.cl). Gradients of
 // coefficient k of channel c are in plane 3 k + c.
+#pragma once
+
+#include "planes.h"
+#include "sh_basis.h"
 
 #define SH_GRADIENT(k, c) sh_gradients[(3 * (k) + (c)) * count + i]
 

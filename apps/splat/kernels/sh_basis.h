@@ -1,6 +1,8 @@
 // What colour's way from spherical harmonics (sh.cl) and its way back
 // (sh_backward.cl) share: the normalisations of the real spherical harmonics,
 // by band and polynomial.
+#pragma once
+
 #define SH_C0 0.28209479177387814f
 #define SH_C1 0.4886025119029199f
 #define SH_C2XY 1.0925484305920792f

@@ -1,6 +1,9 @@
 // Which pixels and tiles a Gaussian may reach. One of SUPPORT_EXACT,
 // SUPPORT_BOX3, SUPPORT_SQUARE3, SUPPORT_OFFICIAL16 is defined. Extents and
 // tiles are those of reference/Projection.h and Tiles.h.
+#pragma once
+
+#include "covariance.cl"
 
 // The half sides of the box in pixels; false if nothing can be reached.
 static bool support_extent(screen_covariance s, float opacity, uint effects,

@@ -4,6 +4,9 @@
 // has the same depth), and the copies, made in depth order, are sorted stably
 // by tile. The lists are those of a sort by the whole key.
 
+#include "layout.h"
+#include "rectangle.cl"
+
 // Loads in flight of each work-item.
 #define BATCH 4
 

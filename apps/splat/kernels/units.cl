@@ -2,6 +2,7 @@
 // table find it (docs/lane-units.md#exponential-units): the same operations, so
 // the same bits. EXP_DEGREE, 2 to 4, is defined. Numbers are those of
 // isasim/raster/ExpUnits.h.
+#pragma once
 
 #define LOG2E 0x1.715476p0f
 

@@ -2,6 +2,13 @@
 // 0): a Gaussian goes through the camera as seven of its points, the mean and
 // sqrt(3) deviations along each axis either way, with weights 0 and 1/6 for the
 // mean on the picture and 2 and 1/6 for the covariance.
+#pragma once
+
+#include "lens.cl"
+#if USE_ROLLING_SHUTTER
+#include "rolling.cl"
+#endif
+
 #define UNSCENTED_STEP 1.7320508f    // root of 3
 #define UNSCENTED_WEIGHT 0.40824829f // root of 1/6
 

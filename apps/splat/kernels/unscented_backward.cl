@@ -1,5 +1,12 @@
 // The way back through the seven points of unscented.cl. Each goes back through
 // the camera at its own place; false where the Jacobian projected the Gaussian.
+#pragma once
+
+#include "backward.cl"
+#include "unscented.cl"
+#if USE_ROLLING_SHUTTER
+#include "rolling_backward.cl"
+#endif
 
 // dL/d(point) from dL/d(its place), px.
 static float3 point_backward(__constant const splat_view *view,

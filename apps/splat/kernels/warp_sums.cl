@@ -2,6 +2,12 @@
 // the idea of DISTWAR (Durvasula et al. 2024) and of gsplat's warpSum. Lanes
 // exchange by local memory, which takes fewer instructions than shuffles: a
 // store a sum, then each lane adds up one sum.
+#pragma once
+
+#include "atomic_sum.cl"
+#include "lane_tree.cl"
+#include "pixel_backward.cl"
+
 #include <vorion.h>
 
 _Static_assert(ALL_SUMS <= LANES, "a lane has at most one sum");

@@ -2,6 +2,10 @@
 // picture (effects/Windows.cpp) are of its windows, each with means from the
 // window's first pixel, one window after the other, behind a splat_windows in
 // the place of the first record.
+#pragma once
+
+#include "layout.h"
+
 typedef struct {
   __global const splat_gaussian *records;
   uint x, y; // of the tile's first pixel

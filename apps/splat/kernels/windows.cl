@@ -2,6 +2,23 @@
 // that its tiles name (window.h), with means measured from the ray through the
 // window's middle (crop.cl).
 
+#include "activate.cl"
+#include "covariance.cl"
+#include "has_lens.h"
+#include "layout.h"
+#include "planes.h"
+#include "rectangle.cl"
+#if HAS_LENS
+#include "lens.cl"
+#if USE_ROLLING_SHUTTER
+#include "rolling.cl"
+#endif
+#if USE_UNSCENTED
+#include "unscented.cl"
+#endif
+#endif
+#include "crop.cl"
+
 // Square tiles, unless the plan says otherwise.
 #ifndef TILE_HEIGHT
 #define TILE_HEIGHT TILE_SIZE

@@ -24,25 +24,18 @@ constexpr const char *DepthLossProgram = "depth loss";
 std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
                                       const BackwardOptions &B) {
   const bool Gsplat = O.Convention == Rules::Gsplat;
-  ProgramSpec Blend{
-      BlendBackwardProgram, {"layout.h", "window.h"}, tileDefines(O)};
+  ProgramSpec Blend{BlendBackwardProgram, "rasterize_backward.cl",
+                    tileDefines(O)};
   if (B.Windows)
     Blend.Defines.push_back(fmt::format("{}=1", effects::Windows.Macro));
-  if (O.Blending == Path::Raster) {
-    Blend.Files.insert(Blend.Files.end(), {"deal.cl", "rasterize_backward.cl"});
-  } else {
-    Blend.Files.insert(Blend.Files.end(), {"falloff.cl", "pixel_backward.cl"});
+  if (O.Blending == Path::Simt) {
     if (B.Pixels == SimtSums::Ordered) {
-      Blend.Files.insert(Blend.Files.end(),
-                         {"lane_tree.cl", "blend_backward.cl"});
+      Blend.File = "blend_backward.cl";
       Blend.Defines.emplace_back("RECORD_SPACE=__global");
     } else {
-      Blend.Files.emplace_back("atomic_sum.cl");
-      if (B.Pixels == SimtSums::Warp) {
-        Blend.Files.insert(Blend.Files.end(), {"lane_tree.cl", "warp_sums.cl"});
+      Blend.File = "blend_backward_atomics.cl";
+      if (B.Pixels == SimtSums::Warp)
         Blend.Defines.emplace_back("WARP_SUMS");
-      }
-      Blend.Files.emplace_back("blend_backward_atomics.cl");
       Blend.Defines.emplace_back("RECORD_SPACE=__local");
     }
     Blend.Defines.push_back(minPowerDefine(O));
@@ -50,48 +43,35 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
     if (Gsplat)
       Blend.Defines.emplace_back("CLAMP_STOPS");
   }
-  ProgramSpec Project{ProjectBackwardProgram,
-                      {"layout.h", "has_lens.h", "activate.cl", "covariance.cl",
-                       "planes.h", "sh_basis.h", "sh_backward.cl",
-                       "backward.cl"},
+  ProgramSpec Project{ProjectBackwardProgram, "project_backward.cl",
                       projectionDefines(ShDegree, O)};
-  std::ranges::copy(lensFiles(O), std::back_inserter(Project.Files));
   const auto Has = [&Project](const Effect &E) {
     Project.Defines.push_back(fmt::format("{}=1", E.Macro));
   };
   if (const Effect *Lens = effects::lensOf(O.Optics))
     Has(*Lens);
-  if (O.Rolling) {
+  if (O.Rolling)
     Has(effects::RollingShutter);
-    Project.Files.emplace_back("rolling_backward.cl");
-  }
   if (O.Through == Spread::Unscented) {
     Has(effects::Unscented);
-    Project.Files.emplace_back("unscented_backward.cl");
     Project.Defines.push_back(keepDepthDefine(O));
   }
-  if (B.Needles) {
+  if (B.Needles)
     Has(effects::Needles);
-    Project.Files.emplace_back("across.cl");
-  }
-  Project.Files.emplace_back("project_backward.cl");
   if (Gsplat)
     Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");
   if (B.Parameters == GradientsOf::Stored)
     Project.Defines.emplace_back("STORED_PARAMETERS");
-  if (B.Poses) {
-    Project.Files.insert(Project.Files.begin() + 1, "pose.h");
+  if (B.Poses)
     Project.Defines.emplace_back("POSES");
-  }
-  ProgramSpec Reduce{
-      ReduceProgram, {"layout.h", "activate.cl", "reduce.cl"}, {}};
+  ProgramSpec Reduce{ReduceProgram, "reduce.cl", {}};
   if (B.AbsoluteSums)
     for (ProgramSpec *P : {&Blend, &Reduce})
       P->Defines.emplace_back("ABSOLUTE_SUMS=2");
   std::vector<ProgramSpec> Programs{
-      {UpstreamProgram, {"upstream.cl"}, {}}, Blend, Reduce, Project};
+      {UpstreamProgram, "upstream.cl", {}}, Blend, Reduce, Project};
   if (B.Depths)
-    Programs.push_back({DepthLossProgram, {"layout.h", "depth_loss.cl"}, {}});
+    Programs.push_back({DepthLossProgram, "depth_loss.cl", {}});
   return Programs;
 }
 

@@ -26,7 +26,7 @@ class SortOnDevice : public OnDevice,
 TEST_P(SortOnDevice, ScanSumsWhatComesBefore) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({ScanProgram, {"scan.cl"}, {}});
+  L.build({ScanProgram, "scan.cl", {}});
   Sorter S(L);
   const uint32_t Count = GetParam();
   std::vector<uint32_t> In(Count);
@@ -41,8 +41,8 @@ TEST_P(SortOnDevice, ScanSumsWhatComesBefore) {
 TEST_P(SortOnDevice, SortIsStableOnItsBits) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({ScanProgram, {"scan.cl"}, {}});
-  L.build({SortProgram, {"sort.cl"}, {}});
+  L.build({ScanProgram, "scan.cl", {}});
+  L.build({SortProgram, "sort.cl", {}});
   Sorter S(L);
   const uint32_t Count = GetParam();
   for (const unsigned Bits : {1U, 8U, 11U, 32U}) {
@@ -87,8 +87,8 @@ TEST_P(SortOnDevice, SortIsStableOnItsBits) {
 TEST_P(SortOnDevice, SortKeptLeavesOutAndNumbers) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({ScanProgram, {"scan.cl"}, {}});
-  L.build({SortProgram, {"sort.cl"}, {}});
+  L.build({ScanProgram, "scan.cl", {}});
+  L.build({SortProgram, "sort.cl", {}});
   Sorter S(L);
   Sorter::KeptKeys What{GetParam(), 0, 0, 0, 0};
   constexpr uint32_t Base = 0x3e4ccccd;
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Counts, SortOnDevice,
 TEST_F(OnDevice, ScanSaturates) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({ScanProgram, {"scan.cl"}, {}});
+  L.build({ScanProgram, "scan.cl", {}});
   Sorter S(L);
   const cl::Buffer Out = L.allocate("sums", 4 * 1001);
   S.scan(upload(L, std::vector<uint32_t>(1000, 1U << 28)), Out, 1000);
@@ -154,12 +154,10 @@ protected:
   /// Runs the kernel `test` of \p Folder, \p PerItem floats in and out a
   /// work-item.
   std::vector<float> runTest(const KernelFolder &Folder,
-                             std::vector<std::string> Files,
                              const std::vector<float> &In, unsigned PerItem) {
     Launcher L(*Dev, Folder.Path, {});
     L.beginStage(Stage::Blend);
-    Files.emplace_back("test.cl");
-    L.build({"test", std::move(Files), {}});
+    L.build({"test", "test.cl", {}});
     const cl::Buffer From = L.allocate("in", 4 * In.size());
     const cl::Buffer To = L.allocate("out", 4 * In.size());
     L.write("in", From, In.data(), 4 * In.size());
@@ -172,7 +170,8 @@ protected:
 };
 
 TEST_F(KernelOnDevice, ActivationIsRoundedOnce) {
-  const KernelFolder Folder("activation", {"activate.cl"}, R"(
+  const KernelFolder Folder("activation", {"activate.cl"},
+                            R"(#include "activate.cl"
 __kernel void test(__global const float4 *in, __global float4 *out) {
   const uint i = 2 * get_global_id(0);
   out[i] = activate_scales_and_opacity(in[i]);
@@ -193,7 +192,7 @@ __kernel void test(__global const float4 *in, __global float4 *out) {
       In.push_back(
           S.Quats.emplace_back(I == 0 ? 0 : std::ldexp(Part(Random), Power)));
   }
-  const std::vector<float> Out = runTest(Folder, {"activate.cl"}, In, 8);
+  const std::vector<float> Out = runTest(Folder, In, 8);
 
   const Activated<float> Want = activate<float>(S);
   // The pairs of floats are good to about 2^-40, so about one value in 2^16
@@ -210,7 +209,7 @@ __kernel void test(__global const float4 *in, __global float4 *out) {
 }
 
 TEST_F(KernelOnDevice, FalloffIsWithinItsError) {
-  const KernelFolder Folder("falloff", {"falloff.cl"}, R"(
+  const KernelFolder Folder("falloff", {"falloff.cl"}, R"(#include "falloff.cl"
 __kernel void test(__global const float *in, __global float *out) {
   const uint i = get_global_id(0);
   out[i] = falloff(in[i]);
@@ -218,7 +217,7 @@ __kernel void test(__global const float *in, __global float *out) {
   std::vector<float> In{0, -0.0F, -1e-30F, -80};
   while (In.size() < 40000)
     In.push_back(-8 * static_cast<float>(Random()) / 4294967296.0F);
-  const std::vector<float> Out = runTest(Folder, {"falloff.cl"}, In, 1);
+  const std::vector<float> Out = runTest(Folder, In, 1);
   double Worst = 0;
   for (std::size_t I = 0; I < In.size(); ++I) {
     const double Want = std::exp(double(In[I]));
@@ -251,7 +250,7 @@ TEST_F(OnDevice, MergeIsTheSumOfItsParts) {
       }
     Launcher L(*Dev, "", {});
     L.beginStage(Stage::Blend);
-    L.build({MergeProgram, {"merge.cl"}, {}});
+    L.build({MergeProgram, "merge.cl", {}});
     const cl::Buffer From = L.allocate("parts", 4 * In.size());
     const cl::Buffer To = L.allocate("pixels", 4 * Want.size());
     L.write("parts", From, In.data(), 4 * In.size());
@@ -280,9 +279,7 @@ TEST_F(OnDevice, TilesAreOrderedByListLength) {
   });
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({TilesProgram,
-           {"layout.h", "rectangle.cl", "tiles.cl"},
-           {"USE_INTERSECT_TAGS=1"}});
+  L.build({TilesProgram, "tiles.cl", {"USE_INTERSECT_TAGS=1"}});
   const auto Count = static_cast<uint32_t>(Want.size());
   const cl::Buffer Order = L.allocate("order", 4 * Want.size());
   L.run(TilesProgram, "order_tiles", (Count + 15) / 16 * 16, 16,

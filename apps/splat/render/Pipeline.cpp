@@ -184,8 +184,14 @@ cl::Buffer Pipeline::cullBlocks() {
   return Verdicts;
 }
 
+/// HAS_LENS of kernels/has_lens.h.
+static bool hasLens(const RenderOptions &O) {
+  return O.Optics != LensModel::Pinhole || O.Through == Spread::Unscented ||
+         O.Rolling;
+}
+
 bool Pipeline::hasMoreThanView() const {
-  return !lensFiles(Options).empty() || Plan.done(effects::Crop);
+  return hasLens(Options) || Plan.done(effects::Crop);
 }
 
 void Pipeline::writeCamera(const Camera &C) {
@@ -197,7 +203,7 @@ void Pipeline::writeCamera(const Camera &C) {
     std::memcpy(&Words[At], &Part, sizeof(Part));
   };
   Append(Current.View);
-  if (!lensFiles(Options).empty())
+  if (hasLens(Options))
     Append(makeLens(C));
   if (Plan.done(effects::Crop))
     Append(makeCrop(C));

@@ -4,10 +4,15 @@
 #include "effects/Registry.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
-#include <string_view>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <set>
 #include <utility>
 
 namespace vorion::splat {
@@ -55,44 +60,32 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
   return Defines;
 }
 
-bool isWordCharacter(char C) {
-  return std::isalnum(static_cast<unsigned char>(C)) != 0 || C == '_';
-}
-
-/// Whether \p Text says \p Word, and not as a part of a longer one.
-bool containsWord(std::string_view Text, std::string_view Word) {
-  for (std::size_t At = Text.find(Word); At != std::string_view::npos;
-       At = Text.find(Word, At + 1)) {
-    const std::size_t End = At + Word.size();
-    if ((At == 0 || !isWordCharacter(Text[At - 1])) &&
-        (End == Text.size() || !isWordCharacter(Text[End])))
-      return true;
+/// The words of the program \p File, which are those of all files that it
+/// includes, whether by this plan or not.
+const std::set<std::string, std::less<>> &wordsOf(const std::string &File) {
+  static std::mutex Mutex;
+  static std::map<std::string, std::set<std::string, std::less<>>> Known;
+  const std::lock_guard Held(Mutex);
+  const auto [At, IsNew] = Known.try_emplace(File);
+  if (!IsNew)
+    return At->second;
+  const auto Text = programText(File);
+  assert(Text && "a program that is planned is of this build");
+  std::string Word;
+  for (const char C : *Text + " ") {
+    if (std::isalnum(static_cast<unsigned char>(C)) != 0 || C == '_') {
+      Word += C;
+    } else if (!Word.empty()) {
+      At->second.insert(std::move(Word));
+      Word.clear();
+    }
   }
-  return false;
+  return At->second;
 }
 
-/// Whether a kernel of \p P says the macro that \p Define begins with.
+/// Whether a kernel of \p P may use the macro that \p Define begins with.
 bool uses(const ProgramSpec &P, const std::string &Define) {
-  const std::string Macro = Define.substr(0, Define.find_first_of("=("));
-  return std::ranges::any_of(P.Files, [&](const std::string &File) {
-    return containsWord(kernelSource(File), Macro);
-  });
-}
-
-/// What measures from a ray, beside the lens's files.
-std::vector<std::string> cropFiles(const RenderOptions &O) {
-  switch (O.Optics) {
-  case LensModel::OpenCv:
-    return {"crop.cl", "crop_opencv.cl"};
-  case LensModel::Fisheye:
-    return {"crop.cl", "crop_fisheye.cl"};
-  case LensModel::Orthographic:
-    return {"crop.cl", "crop_orthographic.cl"};
-  case LensModel::Equirectangular:
-    return {"crop.cl", "crop_equirectangular.cl"};
-  default:
-    return {"crop.cl", "crop_pinhole.cl"};
-  }
+  return wordsOf(P.File).contains(Define.substr(0, Define.find_first_of("=(")));
 }
 
 } // namespace
@@ -130,103 +123,35 @@ std::vector<std::string> projectionDefines(int ShDegree,
   return Defines;
 }
 
-std::vector<std::string> lensFiles(const RenderOptions &O) {
-  const bool Unscented = O.Through == Spread::Unscented;
-  std::vector<std::string> Files;
-  switch (O.Optics) {
-  case LensModel::Pinhole:
-    if (!Unscented && !O.Rolling)
-      return {};
-    Files = {"lens_pinhole.cl"};
-    break;
-  case LensModel::OpenCv:
-    Files = {"lens_opencv.cl"};
-    break;
-  case LensModel::Fisheye:
-    Files = {"lens_fisheye.cl"};
-    break;
-  case LensModel::Orthographic:
-    Files = {"lens_orthographic.cl"};
-    break;
-  case LensModel::Equirectangular:
-    Files = {"lens_equirectangular.cl"};
-    break;
-  }
-  Files.emplace_back("lens.cl");
-  if (O.Rolling)
-    Files.emplace_back("rolling.cl");
-  if (Unscented)
-    Files.emplace_back("unscented.cl");
-  return Files;
-}
-
 RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   const bool Raster = Options.Blending == Path::Raster;
-  const std::string Falloff(kernelOf(Options.Exponential));
-  const char *Deal =
-      Options.Deal == Dealing::LastFrame ? "deal_last_frame.cl" : "deal.cl";
-  RenderPlan Plan{
-      std::move(Effects),
-      {{ProjectProgram,
-        {"layout.h", "has_lens.h", "activate.cl", "covariance.cl", "support.cl",
-         "planes.h", "sh_basis.h", "sh.cl", "rectangle.cl", "camera_depth.cl"},
-        {"VIEW_SPACE=__local"}},
-       {SortProgram, {"sort.cl"}, {}},
-       {TilesProgram, {"layout.h", "rectangle.cl", "tiles.cl"}, {}},
-       {BlendProgram,
-        Raster ? std::vector<std::string>{"layout.h", "window.h", Deal,
-                                          "rasterize.cl"}
-               : std::vector<std::string>{"layout.h", "window.h", Falloff,
-                                          "blend.cl"},
-        {}}}};
-  if (Plan.Effects.done(effects::RayOrder)) {
-    Plan.Programs.back().Files.emplace_back("blend_by_ray.cl");
-    Plan.Programs.push_back({RayFramesProgram,
-                             {"layout.h", "activate.cl", "covariance.cl",
-                              "planes.h", "ray_frames.cl"},
-                             {}});
-  }
-  auto &Project = Plan.Programs.front().Files;
-  std::ranges::copy(lensFiles(Options), std::back_inserter(Project));
-  if (Plan.Effects.done(effects::Needles))
-    Project.emplace_back("across.cl");
-  if (Plan.Effects.done(effects::Crop))
-    std::ranges::copy(cropFiles(Options), std::back_inserter(Project));
-  Project.emplace_back("project_memory.cl");
-  if (Plan.Effects.done(effects::EquirectangularLens))
-    Project.emplace_back("project_copies.cl");
-  Project.emplace_back("project.cl");
-  if (Plan.Effects.done(effects::Windows)) {
-    ProgramSpec Windows{WindowsProgram,
-                        {"layout.h", "has_lens.h", "activate.cl",
-                         "covariance.cl", "planes.h", "rectangle.cl"},
-                        {"CROP_SPACE=__global"}};
-    std::ranges::copy(lensFiles(Options), std::back_inserter(Windows.Files));
-    std::ranges::copy(cropFiles(Options), std::back_inserter(Windows.Files));
-    Windows.Files.emplace_back("windows.cl");
-    Plan.Programs.push_back(std::move(Windows));
-  }
+  const bool ByRay = Effects.done(effects::RayOrder);
+  RenderPlan Plan{std::move(Effects),
+                  {{ProjectProgram, "project.cl", {"VIEW_SPACE=__local"}},
+                   {SortProgram, "sort.cl", {}},
+                   {TilesProgram, "tiles.cl", {}},
+                   {BlendProgram,
+                    Raster  ? "rasterize.cl"
+                    : ByRay ? "blend_by_ray.cl"
+                            : "blend.cl",
+                    {}}}};
+  if (ByRay)
+    Plan.Programs.push_back({RayFramesProgram, "ray_frames.cl", {}});
+  if (Plan.Effects.done(effects::Windows))
+    Plan.Programs.push_back(
+        {WindowsProgram, "windows.cl", {"CROP_SPACE=__global"}});
   if (Plan.Effects.done(effects::ActivatedScene))
-    Plan.Programs.push_back(
-        {ActivateProgram,
-         {"layout.h", "activate.cl", "planes.h", "activate_scene.cl"},
-         {}});
+    Plan.Programs.push_back({ActivateProgram, "activate_scene.cl", {}});
   if (Plan.Effects.done(effects::CullBlocks))
-    Plan.Programs.push_back(
-        {CullProgram,
-         {"layout.h", "activate.cl", "covariance.cl", "cull_blocks.cl"},
-         {}});
+    Plan.Programs.push_back({CullProgram, "cull_blocks.cl", {}});
   if (Plan.Effects.compiled(effects::ZTiles))
-    Plan.Programs.push_back({MergeProgram, {"merge.cl"}, {}});
+    Plan.Programs.push_back({MergeProgram, "merge.cl", {}});
   if (Plan.Effects.compiled(effects::Background))
-    Plan.Programs.push_back({ResolveProgram, {"resolve.cl"}, {}});
+    Plan.Programs.push_back({ResolveProgram, "resolve.cl", {}});
   if (Plan.Effects.done(effects::Depth))
-    Plan.Programs.push_back({DepthProgram, {"layout.h", "depth.cl"}, {}});
+    Plan.Programs.push_back({DepthProgram, "depth.cl", {}});
   if (Plan.Effects.done(effects::Normals))
-    Plan.Programs.push_back(
-        {NormalsProgram,
-         {"layout.h", "activate.cl", "covariance.cl", "planes.h", "normals.cl"},
-         {}});
+    Plan.Programs.push_back({NormalsProgram, "normals.cl", {}});
 
   std::vector<std::string> Defines = parameterDefines(Options);
   for (std::string &Define : Plan.Effects.defines())

@@ -39,10 +39,6 @@ std::vector<std::string> tileDefines(const RenderOptions &O);
 std::vector<std::string> projectionDefines(int ShDegree,
                                            const RenderOptions &O);
 
-/// The kernels' files of the camera's model and of how Gaussians go through it;
-/// none for a pinhole and its Jacobian.
-std::vector<std::string> lensFiles(const RenderOptions &O);
-
 struct RenderPlan {
   EffectPlan Effects;
   std::vector<ProgramSpec> Programs;

@@ -9,14 +9,14 @@
 namespace vorion::splat {
 
 ProgramSpec adamProgram(MomentsOn Where) {
-  ProgramSpec P{AdamProgram, {"adam.cl"}, {}};
+  ProgramSpec P{AdamProgram, "adam.cl", {}};
   if (Where == MomentsOn::Host)
     P.Defines.emplace_back("MOMENTS_BY_PLANE");
   return P;
 }
 
 ProgramSpec regularizeProgram() {
-  return {RegularizeProgram, {"layout.h", "activate.cl", "regularize.cl"}, {}};
+  return {RegularizeProgram, "regularize.cl", {}};
 }
 
 void regularize(Launcher &L, const TrainSettings &Settings,

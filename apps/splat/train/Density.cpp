@@ -16,14 +16,12 @@ constexpr float Never = std::numeric_limits<float>::infinity();
 } // namespace
 
 std::vector<ProgramSpec> densityPrograms() {
-  return {{DensityProgram,
-           {"layout.h", "activate.cl", "philox.h", "axes.cl", "density.cl"},
-           {}},
-          {ScanProgram, {"scan.cl"}, {}},
-          {SortProgram, {"sort.cl"}, {}}};
+  return {{DensityProgram, "density.cl", {}},
+          {ScanProgram, "scan.cl", {}},
+          {SortProgram, "sort.cl", {}}};
 }
 
-ProgramSpec batchProgram() { return {BatchProgram, {"batch.cl"}, {}}; }
+ProgramSpec batchProgram() { return {BatchProgram, "batch.cl", {}}; }
 
 namespace {
 

@@ -18,7 +18,7 @@ float identity(std::size_t Term) { return Term % 5 == 0 ? 1.0F : 0.0F; }
 
 } // namespace
 
-ProgramSpec exposureProgram() { return {ExposureProgram, {"exposure.cl"}, {}}; }
+ProgramSpec exposureProgram() { return {ExposureProgram, "exposure.cl", {}}; }
 
 void Exposures::restart() {
   std::vector<float> From(areOn() ? Terms * Pictures : 0);

@@ -22,11 +22,7 @@ const cl::NDRange PlaneGroup(GroupSize, 1);
 
 } // namespace
 
-ProgramSpec mcmcProgram() {
-  return {McmcProgram,
-          {"layout.h", "activate.cl", "philox.h", "axes.cl", "mcmc.cl"},
-          {}};
-}
+ProgramSpec mcmcProgram() { return {McmcProgram, "mcmc.cl", {}}; }
 
 /// The sum of \p Values, whose prefix sums go to \p Sums.
 uint32_t McmcControl::total(const cl::Buffer &Values, const cl::Buffer &Sums,

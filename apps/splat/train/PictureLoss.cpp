@@ -19,11 +19,11 @@ constexpr uint32_t divideUp(uint32_t A, uint32_t B) { return (A + B - 1) / B; }
 ProgramSpec lossProgram() {
   return {
       LossProgram,
-      {"loss.cl"},
+      "loss.cl",
       {fmt::format("LANES={}", Lanes), fmt::format("TILE_ROWS={}", TileRows)}};
 }
 
-ProgramSpec maskProgram() { return {MaskProgram, {"mask.cl"}, {}}; }
+ProgramSpec maskProgram() { return {MaskProgram, "mask.cl", {}}; }
 
 void PictureLoss::reserve(uint64_t Pixels, uint64_t Tiles) {
   if (Pixels > Room) {

@@ -75,9 +75,7 @@ Vector solved(const Matrix &M, const Vector &V) {
 
 } // namespace
 
-ProgramSpec poseProgram() {
-  return {PoseProgram, {"layout.h", "pose.h", "pose.cl"}, {}};
-}
+ProgramSpec poseProgram() { return {PoseProgram, "pose.cl", {}}; }
 
 Poses::Poses(Launcher &Launch, const TrainSettings &Rules,
              std::vector<Camera> Given, double CamerasExtent)
