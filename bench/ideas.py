@@ -7,12 +7,16 @@ Prints a Markdown table. Every idea draws the same bits as the picture of its ti
 """
 
 import argparse
+import os
 import sys
 import tempfile
 
 import clocked
 import command_line
 import timed_frame
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "intrinsics", "generate"))
+import clock
 
 # What the table calls it, settings of the machine, options of splat render.
 IDEAS = [
@@ -32,10 +36,6 @@ IDEAS = [
 ]
 
 
-# Cycles in which a rasterizer is not idle.
-BUSY = ("blend", "clip", "fetch", "hazard", "begin", "flush", "drain")
-
-
 def draw(args, settings, options, folder):
     variables = {"VORION_CONFIG": args.config} if args.config else {}
     if settings:
@@ -43,7 +43,7 @@ def draw(args, settings, options, folder):
     found, error = timed_frame.report(args, folder, "--exp", "table", "--energy", *options, **variables)
     if error:
         sys.exit(f"ideas.py: error: {error}")
-    busy = sum(one[reason] for one in found["time"]["sum"]["rasterizers"] for reason in BUSY)
+    busy = sum(one[reason] for one in found["time"]["sum"]["rasterizers"] for reason in clock.busy("rasterizers"))
     blend = next(stage["time"]["cycles"] for stage in found["time"]["stages"] if stage["name"] == "blend")
     return {"machine": clocked.name(found["time"]["sum"]), "picture": found["result_fnv1a64"], "busy": busy, "blend": blend, "cycles": found["time"]["sum"]["cycles"],
             "joules": found["energy"]["chip_joules"]["value"], "um2": found["energy"]["area"]["chip_um2"]["value"]}

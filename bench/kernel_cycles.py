@@ -4,8 +4,7 @@
 usage: kernel_cycles.py [--machines NAME,...] PROGRAM [ARGUMENT ...]
 
 Runs the program with the clock on, once on each machine, and prints a table of Markdown with a row for each kernel of
-each machine, all launches together. A cycle of a core has one reason (docs/time-report.md); a column has one, or the sum
-of those that it names.
+each machine, all launches together. A cycle of a core has one reason (docs/time-report.md); a column has the sum of a group.
 Needs scripts/env.sh.
 """
 
@@ -19,9 +18,10 @@ import tempfile
 import clocked
 import command_line
 
-REASONS = {", ".join(parts): parts for parts in (
-    ["issue"], ["fetch"], ["branch", "divergence"], ["memory", "local", "lsu_queue"], ["operand", "unit"],
-    ["raster_full", "raster_wait"], ["ended"], ["start", "fence", "barrier"])}
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "intrinsics", "generate"))
+import clock
+
+REASONS = {", ".join(parts): parts for parts in clock.groups_of(clock.stored()["cores"]).values()}
 
 
 def runs_of(command, machine):

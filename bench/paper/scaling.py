@@ -40,7 +40,7 @@ def model(lengths, parts, units, memory_cycles, on_tiles=tails.ON_TILES):
     memory_cycles: what the scaled machine's DRAM needs for blending's bytes. on_tiles: the reasons that are a tile's."""
     commands = sum(u["commands"] for u in units)
     fixed = tails.spent(units, on_tiles) / commands
-    entry = (tails.spent(units, tails.ON_TILES + tails.ON_LISTS) - fixed * commands) / max(1, sum(lengths))
+    entry = (tails.spent(units, tails.BUSY) - fixed * commands) / max(1, sum(lengths))
     costs = [fixed + entry * n for n in jobs_of(lengths, parts)]
     rows = []
     for count in MODELLED:

@@ -1,9 +1,15 @@
 """The pixel unit: throughput by the point at which lists are handed over."""
 
+import os
+import sys
+
 import machines
 import runs as r
 from runs import Run
 from writing import chart, mega, paragraph, table, terms
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "intrinsics", "generate"))
+import clock
 
 TITLE = "Pixel unit"
 MACHINE = machines.PROTOTYPES[0]
@@ -13,24 +19,24 @@ QUARTER = "last:1/4"
 # The scene with the strongest occluded tail, and one that hardly saturates (its Gaussians are faint).
 SCENES = ("showroom_indoor", "tower_sh3")
 PAPER_GAIN = 0.824
-# What a rasterizer does once a tile, and what for each entry of its list.
-ON_TILES = ("begin", "flush", "drain")
-ON_LISTS = ("blend", "clip", "fetch", "hazard")
+# What a rasterizer does once a tile; the rest is for each entry of its list.
+ON_TILES = clock.in_group("rasterizers", "begins or ends a tile")
+BUSY = clock.busy("rasterizers")
 
 
 def spent(units, reasons):
-    """Cycles that rasterizers' reports have under some reasons."""
+    """Cycles that units' reports have under some reasons."""
     return sum(unit[reason] for unit in units for reason in reasons)
 
 
 def busy(result):
     """Cycles in which rasterizers did anything."""
-    return on_lists(result) + spent(result["time"]["sum"]["rasterizers"], ON_TILES)
+    return spent(result["time"]["sum"]["rasterizers"], BUSY)
 
 
 def on_lists(result):
     """Cycles in which rasterizers went through lists, not cleared or wrote tiles."""
-    return spent(result["time"]["sum"]["rasterizers"], ON_LISTS)
+    return busy(result) - spent(result["time"]["sum"]["rasterizers"], ON_TILES)
 
 
 def measure(store, all_scenes, _every_view):
@@ -48,11 +54,9 @@ def measure(store, all_scenes, _every_view):
         base = results[0]
         points = []
         for rule, result in zip(("off", *RULES), results):
-            pixel = sum(u["evaluate"] + u["fetch"] + u["load"] + u["store"]
-                        for u in result["time"]["sum"]["pixel_units"])
             points.append({"rule": rule, "blend_cycles": r.stage_cycles(result, "blend"),
                            "frame_cycles": r.frame_cycles(result), "rasterizers_busy": busy(result),
-                           "on_lists": on_lists(result), "pixel_units_busy": pixel,
+                           "on_lists": on_lists(result), "pixel_units_busy": spent(result["time"]["sum"]["pixel_units"], clock.busy("pixel_units")),
                            "tails": result["total"]["counters"]["raster_tails"],
                            "throughput": r.stage_cycles(base, "blend") / r.stage_cycles(result, "blend"),
                            "frame_throughput": r.frame_ms(base) / r.frame_ms(result),

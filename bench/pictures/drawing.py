@@ -5,14 +5,11 @@ import os
 import sys
 from xml.sax.saxutils import escape
 
-# By reason of cores, rasterizers and pixel units, in the order in which they are stacked. What has no colour is grey.
-COLOURS = {
-    "issue": "#009e73", "fetch": "#0072b2", "branch": "#56b4e9", "divergence": "#8ecae6", "operand": "#cc79a7",
-    "unit": "#b07aa1", "memory": "#d55e00", "lsu_queue": "#e69f00", "local": "#f0c05a", "raster_full": "#7a5195",
-    "raster_wait": "#b39ddb", "barrier": "#8c6d31", "blend": "#009e73", "clip": "#8ecae6", "hazard": "#cc79a7",
-    "begin": "#e69f00", "flush": "#f0c05a", "drain": "#d55e00",
-}
-GREY = "#c8ccd1"  # start, ended, idle, and whatever is new
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "intrinsics", "generate"))
+import clock
+
+# By reason of cores, rasterizers and pixel units, in the order in which they are stacked.
+COLOURS = clock.colours()
 LEGEND_ROW = 20
 
 
@@ -35,13 +32,13 @@ def shortened(text, letters):
 
 
 def colour(reason):
-    return COLOURS.get(reason, GREY)
+    return COLOURS[reason]
 
 
 def stacked(by_reason):
-    """The reasons and their values, in the order of COLOURS and what is grey last."""
+    """The reasons and their values, in the order of COLOURS."""
     order = list(COLOURS)
-    return sorted(by_reason.items(), key=lambda item: order.index(item[0]) if item[0] in COLOURS else len(order))
+    return sorted(by_reason.items(), key=lambda item: order.index(item[0]))
 
 
 class Drawing:
@@ -66,8 +63,7 @@ class Drawing:
     def write(self, file, made, legend=None):
         x = 16
         self.y += 18
-        names = [r for r in COLOURS if r in self.used] + (["other"] if self.used - set(COLOURS) else [])
-        for name, fill in (legend or {name: colour(name) for name in names}).items():
+        for name, fill in (legend or {name: colour(name) for name in COLOURS if name in self.used}).items():
             width = 26 + 7.2 * len(name)
             if x + width > self.width:
                 x, self.y = 16, self.y + LEGEND_ROW

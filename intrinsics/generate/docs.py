@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Writes docs/isa.md, the reference of instructions, CSRs and descriptors.
+"""Writes docs/isa.md, the reference of instructions, CSRs and descriptors, or the tables of docs/time-report.md.
 
 usage: docs.py [--tblgen PATH] [--check] OUTPUT
+Of a document with the lines `<!-- clock reasons -->` and `<!-- /clock reasons -->` only what is between them is written.
 --check: exit 1 and name the file when OUTPUT is not what would be written.
 """
 
 import argparse
+import os
 import sys
 import textwrap
 
+from clock import units as clock_units
 from records import Records, write
 
 HEAD = """# Instructions, CSRs and descriptors
@@ -120,16 +123,41 @@ def base(records):
     yield table(("extension", "instructions"), [(e, " ".join(names)) for e, names in rows.items()])
 
 
+BEGIN, END = "<!-- clock reasons -->\n", "<!-- /clock reasons -->\n"
+
+
+def clock_reasons(records):
+    for unit in clock_units(records):
+        if unit.Reasons:
+            yield table((f"`{unit.Key}`", "group", f"a cycle in which the {unit.One}"),
+                        [(f"`{r.Key}`", r.Group.Label, r.Meaning) for r in unit.Reasons])
+
+
+def page_with_reasons(page, records):
+    before, _, rest = page.partition(BEGIN)
+    after = rest.partition(END)[2]
+    return before + BEGIN + "\n" + "\n".join(clock_reasons(records)) + "\n" + END + after
+
+
+def text_for(output, records):
+    """What the file is to hold."""
+    if os.path.exists(output):
+        with open(output, encoding="utf-8") as file:
+            page = file.read()
+        if BEGIN in page:
+            return page_with_reasons(page, records)
+    parts = (simt, effects, csrs, counters, units, descriptors, constants, base)
+    return HEAD + "".join(chunk if chunk.endswith("\n") and chunk.startswith("|") else chunk + "\n"
+                          for part in parts for chunk in part(records))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--tblgen", default="llvm-tblgen-19")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("output")
     args = parser.parse_args()
-    records = Records(args.tblgen)
-    parts = (simt, effects, csrs, counters, units, descriptors, constants, base)
-    text = HEAD + "".join(chunk if chunk.endswith("\n") and chunk.startswith("|") else chunk + "\n"
-                          for part in parts for chunk in part(records))
+    text = text_for(args.output, Records(args.tblgen))
     if args.check:
         with open(args.output) as current:
             if current.read() == text:

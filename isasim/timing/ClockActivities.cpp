@@ -59,8 +59,8 @@ void Clock::collectActivities(TimeReport &R) const {
   Add("l2", "write-backs", L2.Writebacks);
   Add("llc", "line reads", R.Llc.Reads);
   Add("llc", "line writes", R.Llc.Writes + R.Llc.Atomics);
-  Add("dram", "read bursts", R.Dram.Reads);
-  Add("dram", "write bursts", R.Dram.Writes);
+  Add("dram", "read bursts", R.Dram.ReadBursts);
+  Add("dram", "write bursts", R.Dram.WriteBursts);
   Add("dram", "activations", R.Dram.Activations);
   Add("dram", "refreshes", R.Dram.Refreshes);
   collectTimes(R);

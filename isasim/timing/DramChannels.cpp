@@ -185,8 +185,8 @@ DramTime DramChannels::time() const {
   DramTime Sum;
   for (const Channel &C : Channels) {
     const dram::ControllerCounts &Counts = C.Control.counts();
-    Sum.Reads += Counts.Reads;
-    Sum.Writes += Counts.Writes;
+    Sum.ReadBursts += Counts.Reads;
+    Sum.WriteBursts += Counts.Writes;
     Sum.RowHits += Counts.RowHits;
     Sum.RowMisses += Counts.RowMisses;
     Sum.RowConflicts += Counts.RowConflicts;

@@ -165,10 +165,10 @@ TEST(DramChannels, EveryStandardAndMapWorks) {
       EXPECT_EQ(finish(D).size(), 200U) << Standard << ' ' << Map;
       const DramTime T = D.time();
       EXPECT_EQ(T.RowHits + T.RowMisses + T.RowConflicts + T.Forwarded, 300U);
-      EXPECT_EQ((T.Reads + T.Writes) * D.burstBytes(),
+      EXPECT_EQ((T.ReadBursts + T.WriteBursts) * D.burstBytes(),
                 (300 - T.Forwarded) * TimingLineBytes);
       D.clearCounters();
-      EXPECT_EQ(D.time().Reads, 0U);
+      EXPECT_EQ(D.time().ReadBursts, 0U);
     }
 }
 

@@ -32,56 +32,24 @@ std::span<const TimingParam> timingParams() {
   return All;
 }
 
-std::string_view name(CoreCycle C) {
-  constexpr std::string_view Names[] = {
-      "issue", "start",       "fetch",       "operand", "memory",
-      "local", "unit",        "lsu_queue",   "branch",  "divergence",
-      "fence", "raster_full", "raster_wait", "barrier", "ended"};
-  static_assert(std::size(Names) == size_t(CoreCycle::Count));
-  return Names[size_t(C)];
-}
-
-std::string_view name(RasterCycle C) {
-  constexpr std::string_view Names[] = {"blend", "clip",  "fetch", "hazard",
-                                        "begin", "flush", "drain", "idle"};
-  static_assert(std::size(Names) == size_t(RasterCycle::Count));
-  return Names[size_t(C)];
-}
-
-std::string_view name(PixelCycle C) {
-  constexpr std::string_view Names[] = {"evaluate", "fetch", "load", "store",
-                                        "idle"};
-  static_assert(std::size(Names) == size_t(PixelCycle::Count));
-  return Names[size_t(C)];
-}
-
 namespace {
 
-template <typename Reason, typename Time> Json cycles(const Time &T) {
+/// The cycles of a unit with reasons, and its counts.
+template <typename Time> Json json(const Time &T) {
   Json J;
-  for (size_t N = 0; N != T.Cycles.size(); ++N)
-    J[std::string(name(static_cast<Reason>(N)))] = T.Cycles[N];
+  if constexpr (requires { T.Cycles; })
+    for (size_t N = 0; N != T.Cycles.size(); ++N)
+      J[std::string(name(static_cast<typename Time::Reason>(N)))] = T.Cycles[N];
+  for (const ClockCount<Time> &C : ClockCounts<Time>)
+    J[std::string(C.Key)] = T.*C.Member;
   return J;
 }
 
-Json json(const CacheTime &T) {
-  return {{"reads", T.Reads},
-          {"writes", T.Writes},
-          {"atomics", T.Atomics},
-          {"hits", T.Hits},
-          {"merged", T.Merged},
-          {"writebacks", T.Writebacks},
-          {"kept", T.Kept},
-          {"bank_cycles", T.BankCycles},
-          {"mshr_cycles", T.MshrCycles}};
-}
-
-Json json(const DramTime &T) {
-  return {{"read_bursts", T.Reads},          {"write_bursts", T.Writes},
-          {"row_hits", T.RowHits},           {"row_misses", T.RowMisses},
-          {"row_conflicts", T.RowConflicts}, {"forwarded", T.Forwarded},
-          {"activations", T.Activations},    {"drains", T.Drains},
-          {"refreshes", T.Refreshes},        {"bus_ps", T.BusPs}};
+template <typename Time> Json json(const std::vector<Time> &Units) {
+  Json J = Json::array();
+  for (const Time &T : Units)
+    J.push_back(json(T));
+  return J;
 }
 
 /// The sum over units, by reason.
@@ -93,7 +61,7 @@ template <typename Time> Time sum(const std::vector<Time> &Units) {
   return Sum;
 }
 
-template <typename Reason, typename Time>
+template <typename Time>
 std::string shares(std::string_view Who, const std::vector<Time> &Units,
                    uint64_t Cycles) {
   const Time Sum = sum(Units);
@@ -102,7 +70,8 @@ std::string shares(std::string_view Who, const std::vector<Time> &Units,
   std::string Text = fmt::format("{:<12}", Who);
   for (size_t N = 0; N != Sum.Cycles.size(); ++N)
     if (Sum.Cycles[N])
-      Text += fmt::format(" {} {:.1f} %", name(static_cast<Reason>(N)),
+      Text += fmt::format(" {} {:.1f} %",
+                          name(static_cast<typename Time::Reason>(N)),
                           100.0 * static_cast<double>(Sum.Cycles[N]) / All);
   return Text + "\n";
 }
@@ -132,30 +101,10 @@ std::string toJson(const TimeReport &R) {
                {"copy_mbps", R.Host.CopyMbps},
                {"dram_burst_bytes", R.DramBurstBytes}};
   J["lane_areas"] = ownJson<Json>(areasJson());
-  Json Cores = Json::array(), Rasters = Json::array(), L2 = Json::array();
-  for (const CoreTime &T : R.Cores)
-    Cores.push_back(cycles<CoreCycle>(T));
-  for (const RasterTime &T : R.Rasters) {
-    Json One = cycles<RasterCycle>(T);
-    One["commands"] = T.Commands;
-    One["gaussians"] = T.Gaussians;
-    One["clipped"] = T.Clipped;
-    One["lane_slots"] = T.LaneSlots;
-    Rasters.push_back(std::move(One));
-  }
-  Json Pixels = Json::array();
-  for (const PixelTime &T : R.PixelUnits) {
-    Json One = cycles<PixelCycle>(T);
-    One["tails"] = T.Tails;
-    One["visits"] = T.Visits;
-    Pixels.push_back(std::move(One));
-  }
-  for (const CacheTime &T : R.L2)
-    L2.push_back(json(T));
-  J["cores"] = std::move(Cores);
-  J["rasterizers"] = std::move(Rasters);
-  J["pixel_units"] = std::move(Pixels);
-  J["l2"] = std::move(L2);
+  J["cores"] = json(R.Cores);
+  J["rasterizers"] = json(R.Rasters);
+  J["pixel_units"] = json(R.PixelUnits);
+  J["l2"] = json(R.L2);
   J["llc"] = json(R.Llc);
   J["dram"] = json(R.Dram);
   Json Activities = Json::array();
@@ -177,16 +126,16 @@ std::string toText(const TimeReport &R) {
   Text += fmt::format("machine      {}\n", R.Machine);
   if (R.Cycles == 0)
     return Text;
-  Text += shares<CoreCycle>("cores", R.Cores, R.Cycles);
-  Text += shares<RasterCycle>("rasterizers", R.Rasters, R.Cycles);
-  Text += shares<PixelCycle>("pixel units", R.PixelUnits, R.Cycles);
+  Text += shares("cores", R.Cores, R.Cycles);
+  Text += shares("rasterizers", R.Rasters, R.Cycles);
+  Text += shares("pixel units", R.PixelUnits, R.Cycles);
   for (size_t N = 0; N != R.L2.size(); ++N)
     Text += line(R.L2.size() == 1 ? "l2" : fmt::format("l2 {}", N), R.L2[N]);
   Text += line("llc", R.Llc);
   const uint64_t Rows = R.Dram.RowHits + R.Dram.RowMisses + R.Dram.RowConflicts;
   Text += fmt::format(
       "{:<12} {} read and {} write bursts, row hits of {:.1f} % of lines\n",
-      "dram", R.Dram.Reads, R.Dram.Writes,
+      "dram", R.Dram.ReadBursts, R.Dram.WriteBursts,
       Rows ? 100.0 * static_cast<double>(R.Dram.RowHits) /
                  static_cast<double>(Rows)
            : 0.0);

@@ -2,6 +2,7 @@
 /// (CL_EVENT_TIME_REPORT_VORION, docs/model.md).
 #pragma once
 
+#include "splat/ClockCounts.h"
 #include "vorion/support/Expected.h"
 
 #include <array>
@@ -14,100 +15,6 @@
 #include <vector>
 
 namespace vorion::splat {
-
-/// \name What is counted for each unit of a kind
-/// The names, in the same order, are the keys of reports. Where a unit has
-/// reasons for its cycles, these come first and add up to all cycles.
-/// @{
-template <typename Count>
-inline constexpr std::array<std::string_view, 0> CountNames{};
-
-enum class CoreCount {
-  Issue,
-  Start,
-  Fetch,
-  Operand,
-  Memory,
-  Local,
-  Unit,
-  LsuQueue,
-  Branch,
-  Divergence,
-  Fence,
-  RasterFull,
-  RasterWait,
-  Barrier,
-  Ended
-};
-template <>
-inline constexpr std::array CountNames<CoreCount> =
-    std::to_array<std::string_view>(
-        {"issue", "start", "fetch", "operand", "memory", "local", "unit",
-         "lsu_queue", "branch", "divergence", "fence", "raster_full",
-         "raster_wait", "barrier", "ended"});
-
-enum class RasterCount {
-  Blend,
-  Clip,
-  Fetch,
-  Hazard,
-  Begin,
-  Flush,
-  Drain,
-  Idle,
-  Commands,
-  Gaussians,
-  Clipped,
-  LaneSlots
-};
-template <>
-inline constexpr std::array CountNames<RasterCount> =
-    std::to_array<std::string_view>(
-        {"blend", "clip", "fetch", "hazard", "begin", "flush", "drain", "idle",
-         "commands", "gaussians", "clipped", "lane_slots"});
-
-enum class PixelCount { Evaluate, Fetch, Load, Store, Idle, Tails, Visits };
-template <>
-inline constexpr std::array CountNames<PixelCount> =
-    std::to_array<std::string_view>(
-        {"evaluate", "fetch", "load", "store", "idle", "tails", "visits"});
-
-enum class CacheCount {
-  Reads,
-  Writes,
-  Atomics,
-  Hits,
-  Merged,
-  Writebacks,
-  Kept,
-  BankCycles,
-  MshrCycles
-};
-template <>
-inline constexpr std::array CountNames<CacheCount> =
-    std::to_array<std::string_view>({"reads", "writes", "atomics", "hits",
-                                     "merged", "writebacks", "kept",
-                                     "bank_cycles", "mshr_cycles"});
-
-enum class DramCount {
-  ReadBursts,
-  WriteBursts,
-  RowHits,
-  RowMisses,
-  RowConflicts,
-  Forwarded,
-  Activations,
-  Drains,
-  Refreshes,
-  BusPs
-};
-template <>
-inline constexpr std::array CountNames<DramCount> =
-    std::to_array<std::string_view>({"read_bursts", "write_bursts", "row_hits",
-                                     "row_misses", "row_conflicts", "forwarded",
-                                     "activations", "drains", "refreshes",
-                                     "bus_ps"});
-/// @}
 
 /// The counts of one unit.
 template <typename Count> struct UnitCounts {

@@ -1,43 +1,45 @@
 #include "explore/Bottleneck.h"
 
-#include <map>
+#include "splat/ClockCounts.h"
+
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <utility>
 
 namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
 
-/// Of the \p Units of \p Runs, whose entries have \p Reasons among others.
-static Bottleneck mostOf(const StageTimes &Runs, const std::string &Units,
-                         const std::set<std::string> &Reasons) {
-  std::map<std::string, double> Cycles;
+/// Of the \p Units of \p Runs, which count \p Count: the reason of most cycles
+/// that were not idle, and where it is, its group.
+template <typename Count>
+static std::pair<Bottleneck, ReasonGroup> mostOf(const StageTimes &Runs,
+                                                 const std::string &Units) {
+  std::array<double, Reasons<Count>.size()> Cycles{};
   double All = 0;
   for (const Json *Time : Runs)
     for (const Json &Unit : (*Time)[Units])
-      for (const std::string &Reason : Reasons) {
-        const double Count = Unit[Reason].get<double>();
-        Cycles[Reason] += Count;
-        All += Count;
-      }
-  Bottleneck Most{Units, "", 0};
-  for (const auto &[Reason, Count] : Cycles)
-    if (All > 0 && Count / All > Most.Share)
-      Most = {Units, Reason, Count / All};
-  return Most;
+      for (std::size_t N = 0; N != Cycles.size(); ++N)
+        if (!Reasons<Count>[N].IsIdle) {
+          const double Spent =
+              Unit[std::string(CountNames<Count>[N])].template get<double>();
+          Cycles[N] += Spent;
+          All += Spent;
+        }
+  const auto Most = std::ranges::max_element(Cycles);
+  if (All == 0)
+    return {{Units, "", 0}, {}};
+  const auto N = static_cast<std::size_t>(Most - Cycles.begin());
+  return {{Units, std::string(CountNames<Count>[N]), *Most / All},
+          Reasons<Count>[N].Group};
 }
 
 Bottleneck bottleneckOf(const StageTimes &Runs) {
-  Bottleneck OfCores =
-      mostOf(Runs, "cores",
-             {"issue", "start", "fetch", "operand", "memory", "local", "unit",
-              "lsu_queue", "branch", "divergence", "fence", "raster_full",
-              "raster_wait", "barrier"});
-  if (!OfCores.Reason.starts_with("raster_"))
+  const auto &[OfCores, Group] = mostOf<CoreCount>(Runs, "cores");
+  if (Group != ReasonGroup::CoreRasterizes)
     return OfCores;
-  return mostOf(
-      Runs, "rasterizers",
-      {"blend", "clip", "fetch", "hazard", "begin", "flush", "drain"});
+  return mostOf<RasterCount>(Runs, "rasterizers").first;
 }
 
 /// What a unit of the reports' activities counts; of any event, if that is

@@ -3,27 +3,6 @@
 const { runs } = data; // { name, report, picture }; picture is a data URI or null
 const two = runs.length === 2;
 
-// What a unit did in a cycle, by the report's reasons; where several are one here, a line below names them.
-const UNITS = {
-  cores: {
-    label: 'cores', of: 'cores', reasons: {
-      'issues an instruction': ['issue'],
-      'waits for accesses': ['memory', 'lsu_queue', 'local', 'fence'],
-      'waits for an operand or a unit': ['operand', 'unit'],
-      'waits for an instruction': ['fetch', 'start'],
-      'branches, diverges': ['branch', 'divergence'],
-      'waits for a rasterizer': ['raster_full', 'raster_wait'],
-      'waits at a barrier': ['barrier'],
-      'has ended': ['ended'],
-    },
-  },
-  rasterizers: {
-    label: 'rasterizers', of: 'rasterizers', reasons: {
-      blends: ['blend'], 'finds out what is clipped': ['clip'], 'waits for Gaussians': ['fetch'], 'waits for a pixel': ['hazard'],
-      'begins or ends a tile': ['begin', 'flush', 'drain'], 'is idle': ['idle'],
-    },
-  },
-};
 const SCALES = { cycles: 'thousand cycles', percent: 'per cent of the stage' };
 const HEATS = { list: 'entries of its list', blends: 'blends', cycles: 'cycles of its rasterizer', saturation: 'saturated pixels, %' };
 // As the files of --heat-map: from dark to bright, so that the order shows without colours too.
@@ -83,14 +62,14 @@ function drawTimeline() {
 }
 
 function drawReasons() {
-  const { of, reasons } = UNITS[state.unit];
+  const { groups } = UNITS[state.unit], of = state.unit;
   const rows = stageNames.flatMap(name => runs.map((run, n) => ({ name, n, time: stageOf(run, name)?.time }))).filter(r => r.time);
   const share = (time, keys) => {
     const cycles = time[of].reduce((sum, unit) => sum + keys.reduce((s, k) => s + unit[k], 0), 0) / time[of].length;
     return state.scale === 'percent' ? 100 * cycles / time.cycles : cycles / 1e3;
   };
-  const datasets = Object.entries(reasons).map(([label, keys], n) =>
-    ({ label, data: rows.map(r => share(r.time, keys)), backgroundColor: seriesColour(n), barPercentage: 0.95 }));
+  const datasets = Object.entries(groups).map(([label, group]) =>
+    ({ label, data: rows.map(r => share(r.time, group.reasons)), backgroundColor: group.colour, barPercentage: 0.95 }));
   const narrow = byId('reasons-box').clientWidth < 600;
   sizeBox('reasons-box', 110 + (narrow ? 130 : 20) + rows.length * 26);
   drawChart('reasons', {
@@ -109,7 +88,7 @@ function drawReasons() {
     },
   });
   const units = rows[0].time[of].length;
-  const sums = Object.entries(reasons).filter(([, keys]) => keys.length > 1).map(([label, keys]) => `“${label}” is ${keys.join(' + ')}`);
+  const sums = Object.entries(groups).filter(([, g]) => g.reasons.length > 1).map(([label, g]) => `“${label}” is ${g.reasons.join(' + ')}`);
   byId('reasons-note').textContent = `The mean of ${units} ${UNITS[state.unit].label}; a bar is as long as its stage. Of the report's reasons, ${sums.join(', ')}.`;
 }
 

@@ -75,20 +75,23 @@ FrameMilliseconds frameMilliseconds(const std::vector<StageReport> &Stages,
 /// percent.
 template <typename Count>
 double share(uint64_t Cycles, const std::vector<UnitCounts<Count>> &Units,
-             const std::vector<Count> &Reasons) {
+             const std::vector<Count> &Some) {
   double Sum = 0;
   for (const UnitCounts<Count> &U : Units)
-    for (const Count Reason : Reasons)
+    for (const Count Reason : Some)
       Sum += static_cast<double>(U[Reason]);
   const double All =
       static_cast<double>(Cycles) * static_cast<double>(Units.size());
   return All > 0 ? 100 * Sum / All : 0;
 }
 
-/// Of the cores, in percent.
+/// Of the cores that wait for rasterizers, in percent.
 double rasterShare(const TimeReport &T) {
-  return share<CoreCount>(T.Cycles, T.Cores,
-                          {CoreCount::RasterFull, CoreCount::RasterWait});
+  std::vector<CoreCount> Waits;
+  for (std::size_t N = 0; N != Reasons<CoreCount>.size(); ++N)
+    if (Reasons<CoreCount>[N].Group == ReasonGroup::CoreRasterizes)
+      Waits.push_back(static_cast<CoreCount>(N));
+  return share(T.Cycles, T.Cores, Waits);
 }
 
 double dramMegabytes(const TimeReport &T) {

@@ -3,8 +3,12 @@
 usage: heat_map.py PREFIX OFF.json ON.json COLUMNS ROWS
 """
 import json
+import os
 import struct
 import sys
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "intrinsics", "generate"))
+import clock
 
 prefix, off, on, columns, rows = sys.argv[1:]
 report = json.load(open(prefix + ".json"))
@@ -17,7 +21,7 @@ counters = on["total"]["counters"]
 blends = counters["raster_blends"] + counters["raster_tail_blends"]
 assert sum(t["blends"] for t in tiles) == blends > 0
 assert sum(t["list"] for t in tiles) == on["counts"]["pairs"]
-busy = sum(sum(unit[reason] for reason in "blend clip fetch hazard begin flush drain".split())
+busy = sum(sum(unit[reason] for reason in clock.busy("rasterizers"))
            for stage in on["time"]["stages"] if "time" in stage
            for unit in stage["time"]["rasterizers"])
 cycles = sum(t["cycles"] for t in tiles)

@@ -2,6 +2,8 @@
 /// docs/model.md).
 #pragma once
 
+#include "vorion/isasim/ClockCounts.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -63,84 +65,6 @@ std::span<const TimingParam> timingParams();
 /// The parameters and the rasterizer's units as Markdown tables
 /// (docs/model.md).
 std::string timingMarkdown();
-
-/// What a cycle of a core went to: it issued an instruction, or waited.
-enum class CoreCycle : uint8_t {
-  Issue,
-  Start,      ///< for reset at the launch
-  Fetch,      ///< for the warp's next instruction
-  Operand,    ///< for a result of an ALU or SFU
-  Memory,     ///< for a value from global memory
-  Local,      ///< for a value from local memory
-  Unit,       ///< for a unit that was busy
-  LsuQueue,   ///< for a place among the accesses in flight
-  Branch,     ///< for the front end after a branch
-  Divergence, ///< for the front end after what changes the active lanes
-  Fence,      ///< for its accesses to be done
-  RasterFull, ///< for a place in the rasterizer's queue
-  RasterWait, ///< for the rasterizer to finish
-  Barrier,    ///< for other cores at a barrier
-  Ended,      ///< nothing left to do while others still run
-  Count
-};
-/// What a cycle of a rasterizer went to.
-enum class RasterCycle : uint8_t {
-  Blend,  ///< lanes were given pixels
-  Clip,   ///< a Gaussian that misses the tile was dropped
-  Fetch,  ///< waited for a Gaussian's record
-  Hazard, ///< waited for a pixel that was still being updated
-  Begin,  ///< took a command and cleared or loaded the pixel buffer
-  Flush,  ///< waited for the lanes to empty
-  Drain,  ///< wrote the tile, or waited for a core to take gradients
-  Idle,   ///< had no command
-  Count
-};
-/// What a cycle of a pixel unit went to.
-enum class PixelCycle : uint8_t {
-  Evaluate, ///< lanes were given a Gaussian
-  Fetch,    ///< waited for a Gaussian's record
-  Load,     ///< waited for the hand-over's record or pixels
-  Store,    ///< emptied the lanes and wrote the last pixels
-  Idle,     ///< had no hand-over
-  Count
-};
-std::string_view name(CoreCycle C);
-std::string_view name(RasterCycle C);
-std::string_view name(PixelCycle C);
-
-struct CoreTime {
-  std::array<uint64_t, size_t(CoreCycle::Count)> Cycles{};
-};
-struct RasterTime {
-  std::array<uint64_t, size_t(RasterCycle::Count)> Cycles{};
-  uint64_t Commands = 0, Gaussians = 0, Clipped = 0;
-  uint64_t LaneSlots = 0; ///< pixels given to lanes
-};
-struct PixelTime {
-  std::array<uint64_t, size_t(PixelCycle::Count)> Cycles{};
-  uint64_t Tails = 0;
-  uint64_t Visits = 0; ///< Gaussians examined, summed over pixels
-};
-struct CacheTime {
-  uint64_t Reads = 0, Writes = 0, Atomics = 0; ///< requests of a line
-  uint64_t Hits = 0;                           ///< of all requests
-  uint64_t Merged = 0;     ///< misses of a line already on its way
-  uint64_t Writebacks = 0; ///< dirty lines sent down
-  uint64_t Kept = 0;       ///< victims that the intersect hint spared
-  uint64_t BankCycles = 0; ///< that requests waited for a bank
-  uint64_t MshrCycles = 0; ///< that misses waited for an MSHR
-};
-struct DramTime {
-  uint64_t Reads = 0, Writes = 0; ///< bursts
-  /// Bursts whose row was open, whose bank was closed, whose bank had another
-  /// row open, when they were first taken up.
-  uint64_t RowHits = 0, RowMisses = 0, RowConflicts = 0;
-  uint64_t Forwarded = 0; ///< lines read from writes that waited
-  uint64_t Activations = 0;
-  uint64_t Drains = 0; ///< times that writes were begun to be drained
-  uint64_t Refreshes = 0;
-  uint64_t BusPs = 0; ///< that data buses were in use, summed over channels
-};
 
 /// Bytes that went over the link to the L2.
 struct LinkTime {
