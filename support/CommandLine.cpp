@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
-#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -83,29 +82,6 @@ std::string shortestCall(const CLI::App &App) {
                     ? " " + upperCase(O->get_name())
                     : fmt::format(" {} {}", O->get_name(), O->get_type_name());
   return Call;
-}
-
-/// What CLI11 \p Said, as our messages say it: without its capitals in the
-/// midst of a sentence, and with what was expected.
-std::string inOurWords(const std::string &Said) {
-  static const std::regex Missing("(\\S+): [0-9]+ required (.*) missing"),
-      TooMany("(\\S+): At Most ([0-9]+) required but received ([0-9]+)"),
-      NoNumber("Could not convert: (\\S+) = (.*)"),
-      Pair("\\S+ (excludes|requires) \\S+");
-  std::smatch Parts;
-  if (std::regex_match(Said, Parts, Missing))
-    return fmt::format("{}: a value is missing, expected {}", Parts[1].str(),
-                       Parts[2].str());
-  if (std::regex_match(Said, Parts, TooMany))
-    return fmt::format("{}: {} values, expected {} at most", Parts[1].str(),
-                       Parts[3].str(), Parts[2].str());
-  if (std::regex_match(Said, Parts, NoNumber))
-    return fmt::format("{}: {} is not a number that it takes", Parts[1].str(),
-                       Parts[2].str());
-  if (std::regex_match(Said, Parts, Pair))
-    return fmt::format("{}, expected {}", Said,
-                       Parts[1] == "excludes" ? "one of them" : "both");
-  return Said;
 }
 
 /// What \p O takes, as help has it.
@@ -216,11 +192,56 @@ const CLI::Option *tookAnOption(const CLI::App *App) {
   return nullptr;
 }
 
-/// What is wrong, of \p App that refused its arguments with \p Said: a word
+/// The option with \p Name of \p App or of those around it; null if none is.
+const CLI::Option *optionNamed(const CLI::App *App, const std::string &Name) {
+  for (; App; App = App->get_parent())
+    if (const CLI::Option *O = App->get_option_no_throw(Name))
+      return O;
+  return nullptr;
+}
+
+/// What \p E says of an option of \p App, with what was expected. Decided by
+/// the kind of the error and by the options' values; of the text, which differs
+/// between versions of CLI11, only the option's name is used.
+std::string describe(const CLI::App &App, const CLI::ParseError &E) {
+  const std::string Said = E.what();
+  switch (static_cast<CLI::ExitCodes>(E.get_exit_code())) {
+  case CLI::ExitCodes::ExcludesError:
+    return Said + ", expected one of them";
+  case CLI::ExitCodes::RequiresError:
+    return Said + ", expected both";
+  case CLI::ExitCodes::ArgumentMismatch:
+    if (const CLI::Option *O =
+            optionNamed(&App, Said.substr(0, Said.find(':')))) {
+      const auto Most =
+          static_cast<std::size_t>(std::max(O->get_items_expected_max(), 1));
+      return O->results().size() > Most
+                 ? fmt::format("{}: {} values, expected {} at most",
+                               O->get_name(), O->results().size(), Most)
+                 : fmt::format("{}: a value is missing, expected {}",
+                               O->get_name(), O->get_type_name());
+    }
+    return Said;
+  case CLI::ExitCodes::ConversionError:
+    for (const CLI::App *A = &App; A; A = A->get_parent())
+      for (const CLI::Option *O : A->get_options()) {
+        const std::string Values = CLI::detail::join(O->results());
+        if (!Values.empty() && Said.ends_with(O->get_name() + " = " + Values))
+          return fmt::format("{}: {} is not a number that it takes",
+                             O->get_name(), Values);
+      }
+    return Said;
+  default:
+    return Said;
+  }
+}
+
+/// What is wrong, of \p App that refused its arguments with \p E: a word
 /// that nobody knows is told rather than what is missing without it. \p First
 /// is the first argument.
-std::string problemOf(const CLI::App &App, const std::string &Said,
+std::string problemOf(const CLI::App &App, const CLI::ParseError &E,
                       const std::string &First) {
+  const std::string Said = E.what();
   const std::vector<std::string> Outermost = subcommandsOf(App);
   if (!Outermost.empty() && !First.empty() && !First.starts_with('-') &&
       std::ranges::find(Outermost, First) == Outermost.end())
@@ -257,7 +278,7 @@ std::string problemOf(const CLI::App &App, const std::string &Said,
     return fmt::format("unexpected argument {} {}", *Surplus, SeeHelp);
   // A check of ours says itself what it expects.
   return Said.find("expected") == std::string::npos
-             ? fmt::format("{} {}", inOurWords(Said), SeeHelp)
+             ? fmt::format("{} {}", describe(*Inner, E), SeeHelp)
              : Said;
 }
 
@@ -385,7 +406,7 @@ static std::optional<std::string> parse(CLI::App &App,
     throw;
   } catch (const CLI::ParseError &E) {
     const auto Wrong = firstWrong(App, ifEmpty);
-    return Wrong ? Wrong : problemOf(App, E.what(), First);
+    return Wrong ? Wrong : problemOf(App, E, First);
   }
   for (ValueCheck *Check : {ifEmpty, ifNaN, ifNoFloat})
     if (auto Wrong = firstWrong(App, Check))
