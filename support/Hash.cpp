@@ -1,15 +1,17 @@
 #include "vorion/support/Hash.h"
 
-#include <cstdint>
+#define XXH_INLINE_ALL // the header alone: no library to link
 #include <fmt/format.h>
+#include <xxhash.h>
 
 namespace vorion {
 
 std::string fnv1a64(std::string_view Bytes) {
-  uint64_t Hash = 0xcbf29ce484222325;
-  for (const char C : Bytes)
-    Hash = (Hash ^ static_cast<unsigned char>(C)) * 0x100000001b3;
-  return fmt::format("{:016x}", Hash);
+  return fmt::format("{:016x}", fnv1a(Bytes));
+}
+
+uint64_t xxh3(std::span<const std::byte> Bytes) {
+  return XXH3_64bits(Bytes.data(), Bytes.size());
 }
 
 } // namespace vorion

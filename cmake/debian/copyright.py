@@ -17,7 +17,7 @@ Comment:
  The programs contain code of LLVM, clang and lld (vorion-clang, vorion-link,
  vorion-llc, vorion-mc, vorion-opt, vorion-objdump, libdevice.a), of PoCL (libvorion-pocl.so,
  libvorion-pocl-compiler.so, poclcc, kernel-vorion.bc) with SLEEF and libclc, of RapidCheck
- (splat-hard-cases), and of the header-only libraries CLI11, JSON for Modern C++, GLM and nanoflann. PoCL's paths are those of its
+ (splat-hard-cases), and of the header-only libraries CLI11, JSON for Modern C++, GLM, nanoflann and xxHash. PoCL's paths are those of its
  source package, below pocl/. The site of the documents (html/ of vorion-doc)
  contains scripts and styles of Material for MkDocs, and lunr.js in them.
 
@@ -32,7 +32,7 @@ License: Apache-2.0-with-LLVM-exception
 
 # A library and the paragraph of its package that stands for all of it.
 LIBRARIES = {"cli11": "libcli11-dev", "nlohmann": "nlohmann-json3-dev", "glm": "libglm-dev",
-             "nanoflann": "libnanoflann-dev", "rapidcheck": "librapidcheck-dev"}
+             "nanoflann": "libnanoflann-dev", "rapidcheck": "librapidcheck-dev", "xxhash": "libxxhash-dev"}
 # The same of what the site is made with; where they are missing, no site is packed.
 SITE = {"mkdocs-material": "mkdocs-material", "lunr": "libjs-lunr"}
 

@@ -2,6 +2,8 @@
 /// functions may differ in the last place from version to version.
 #pragma once
 
+#include "vorion/support/Hash.h"
+
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -37,10 +39,7 @@ inline double pow(double X, double Y) { return exp(Y * log(X)); }
 /// A draw of a normal distribution that depends on a name and a number alone:
 /// the sum of twelve uniform numbers less 6, whose 5 and 95 % lie 0.2 % off.
 inline double normal(std::string_view Name, uint64_t Number) {
-  uint64_t State = 0xcbf29ce484222325; // FNV-1a of the name
-  for (const char C : Name)
-    State = (State ^ static_cast<unsigned char>(C)) * 0x100000001b3;
-  State += Number * 0xd1342543de82ef95;
+  uint64_t State = fnv1a(Name) + Number * 0xd1342543de82ef95;
   double Sum = -6;
   for (int N = 0; N != 12; ++N) { // splitmix64
     State += 0x9e3779b97f4a7c15;

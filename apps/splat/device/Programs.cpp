@@ -4,12 +4,9 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Hash.h"
 
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
-#include <span>
 #include <system_error>
 
 namespace vorion::splat {
@@ -26,28 +23,6 @@ static fs::path thisProgram() {
 static fs::path root() {
   const char *Given = environmentVariable("VORION_ROOT");
   return Given ? fs::path(Given) : thisProgram().parent_path().parent_path();
-}
-
-/// Tells contents apart as fnv1a64() does, in an eighth of the steps: the
-/// programs have 120 MB, and --version hashes them all.
-static uint64_t hashByWords(std::span<const std::byte> Bytes) {
-  // Of FNV-1a. Its multiplication alone would keep what the words' high bits
-  // say in high bits, where two differences can cancel each other.
-  uint64_t Hash = 0xcbf29ce484222325 ^ Bytes.size();
-  const auto Add = [&Hash](uint64_t Word) {
-    Hash = (Hash ^ Word) * 0x100000001b3;
-    Hash ^= Hash >> 32;
-  };
-  uint64_t Word = 0;
-  for (; Bytes.size() >= sizeof(Word); Bytes = Bytes.subspan(sizeof(Word))) {
-    std::memcpy(&Word, Bytes.data(), sizeof(Word));
-    Add(Word);
-  }
-  Word = 0;
-  if (!Bytes.empty())
-    std::memcpy(&Word, Bytes.data(), Bytes.size());
-  Add(Word);
-  return Hash;
 }
 
 Expected<std::string> hashPrograms() {
@@ -72,7 +47,7 @@ Expected<std::string> hashPrograms() {
     const auto Bytes = readRegularFile(File.string());
     if (!Bytes)
       return Bytes.error();
-    Hashes += fmt::format("{:016x} {}\n", hashByWords(*Bytes), Name);
+    Hashes += fmt::format("{:016x} {}\n", xxh3(*Bytes), Name);
   }
   return fnv1a64(Hashes);
 }

@@ -13,6 +13,11 @@ TEST(Hash, GivesThePublishedValues) {
   EXPECT_EQ(fnv1a64("foobar"), "85944171f73967e8");
 }
 
+// Of XXH3_64bits, too.
+TEST(Hash, GivesThePublishedValueOfNoBytesByXxh3) {
+  EXPECT_EQ(xxh3({}), 0x2d06800538d394c2U);
+}
+
 TEST(Hash, OfAMissingFileIsAnError) {
   EXPECT_FALSE(hashFile("/nonexistent-folder/x"));
 }

@@ -1,13 +1,28 @@
-/// FNV-1a, 64 bits: tells inputs apart in reports, guards against nobody.
-/// http://www.isthe.com/chongo/tech/comp/fnv/
+/// Hashes that tell inputs apart, and guard against nobody.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace vorion {
 
-/// 16 hexadecimal digits.
+/// FNV-1a, 64 bits, http://www.isthe.com/chongo/tech/comp/fnv/: of what
+/// reports, checkpoints and draws of random numbers depend on, so that it
+/// stays.
+constexpr uint64_t fnv1a(std::string_view Bytes) {
+  uint64_t Hash = 0xcbf29ce484222325;
+  for (const char C : Bytes)
+    Hash = (Hash ^ static_cast<unsigned char>(C)) * 0x100000001b3;
+  return Hash;
+}
+
+/// The same as 16 hexadecimal digits.
 std::string fnv1a64(std::string_view Bytes);
+
+/// XXH3, 64 bits: of much data, since it is many times as fast.
+uint64_t xxh3(std::span<const std::byte> Bytes);
 
 } // namespace vorion
