@@ -18,22 +18,12 @@ std::string referenceFile(const SweepPlan &P, const Point &Of) {
                      Of.Chosen.value(KnobId::Support));
 }
 
-reference::Support supportOf(const Setting &S) {
-  for (const reference::Support R :
-       {reference::Support::Box3, reference::Support::Square3})
-    if (name(R) == S.value(KnobId::Support))
-      return R;
-  return reference::Support::Exact;
-}
-
 Expected<Success> writeReference(const std::string &Path,
                                  const reference::Gaussians<double> &Scene,
-                                 const Camera &View, reference::Support Reach,
+                                 const Camera &View, Support Reach,
                                  const Drawing &DrawnAs) {
-  reference::Options O;
-  O.Reach = Reach;
-  O.Antialiased = DrawnAs.Antialiased;
-  O.Dilation = DrawnAs.Dilation.value_or(O.Dilation);
+  reference::Options O = toReference(DrawnAs);
+  O.Reach = toReference(Reach);
   const auto Picture = reference::render(Scene, toReference<double>(View), O);
   std::vector<double> Render;
   Render.reserve(3 * Picture.Render.size());
@@ -53,7 +43,7 @@ makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
   Drawing DrawnAs;
   for (const Point &Of : Points) {
     const std::string Path = referenceFile(P, Of);
-    const reference::Support Reach = supportOf(Of.Chosen);
+    const Support Reach = Of.Chosen.support();
     Origin From = originOf(P, Of);
     From["support"] = name(Reach);
     const auto Make = [&]() -> Expected<Success> {

@@ -162,6 +162,12 @@ BlendUnit Setting::arithmetic() const {
   return BlendUnits[place(KnobId::Blend)];
 }
 
+Support Setting::support() const {
+  constexpr Support All[] = {Support::Exact, Support::Box3, Support::Square3};
+  return *std::ranges::find(All, value(KnobId::Support),
+                            [](Support S) { return splat::name(S); });
+}
+
 /// A flag has the values off and on.
 static void append(std::vector<std::string> &To, const std::string &Option,
                    const std::string &Value) {

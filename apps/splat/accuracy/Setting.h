@@ -83,6 +83,7 @@ public:
   }
   ExpUnit exponential() const;
   BlendUnit arithmetic() const;
+  Support support() const;
 
   /// For `splat render --path raster`.
   std::vector<std::string> arguments() const;

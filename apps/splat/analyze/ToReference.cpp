@@ -3,6 +3,7 @@
 #include "reference/Lens.h"
 #include "scene/Activation.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace vorion::splat {
@@ -79,6 +80,54 @@ template <typename Real> reference::Camera<Real> toReference(const Camera &C) {
                  S->Down,
                  {S->Motion[0], S->Motion[1], S->Motion[2]},
                  {S->Turn[0], S->Turn[1], S->Turn[2]}};
+  return R;
+}
+
+reference::Rules toReference(Rules R) {
+  switch (R) {
+  case Rules::Inria:
+    return reference::Rules::Inria;
+  case Rules::Gsplat:
+    return reference::Rules::Gsplat;
+  }
+  return {};
+}
+
+reference::Support toReference(Support S) {
+  switch (S) {
+  case Support::Exact:
+    return reference::Support::Exact;
+  case Support::Box3:
+    return reference::Support::Box3;
+  case Support::Square3:
+    return reference::Support::Square3;
+  case Support::Official16:
+    return reference::Support::Official16;
+  }
+  return {};
+}
+
+reference::Options toReference(const RenderOptions &O) {
+  reference::Options R;
+  R.Rule = toReference(O.Convention);
+  R.Reach = toReference(O.Reach);
+  R.Through = O.Through == Spread::Jacobian ? reference::Spread::Jacobian
+                                            : reference::Spread::Unscented;
+  R.Antialiased = O.Antialiased;
+  R.Dilation = double{O.Dilation};
+  R.Cutoff = double{O.Cutoff};
+  R.AlphaCutoff = static_cast<int>(O.AlphaCutoff);
+  R.DepthBits = static_cast<int>(O.DepthBits);
+  R.Near = double{O.Near.value_or(0)}; // 0: the rules' own
+  R.ShLimit = O.ShLimit;
+  std::ranges::copy(O.Background, R.Background.begin());
+  return R;
+}
+
+reference::Options toReference(const Drawing &D) {
+  reference::Options R;
+  R.Antialiased = D.Antialiased;
+  R.Dilation = D.Dilation.value_or(R.Dilation);
   return R;
 }
 

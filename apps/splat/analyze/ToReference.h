@@ -2,7 +2,9 @@
 #pragma once
 
 #include "io/Cameras.h"
+#include "picture/Options.h"
 #include "reference/Types.h"
+#include "scene/Drawing.h"
 #include "scene/Scene.h"
 
 namespace vorion::splat {
@@ -12,5 +14,14 @@ template <typename Real> reference::Gaussians<Real> toReference(const Scene &S);
 
 /// \p C in precision \p Real, rounded once from doubles as the device gets it.
 template <typename Real> reference::Camera<Real> toReference(const Camera &C);
+
+reference::Rules toReference(Rules R);
+reference::Support toReference(Support S);
+
+/// What decides a picture's bits of \p O, its numbers as the device has them.
+reference::Options toReference(const RenderOptions &O);
+
+/// The defaults, for a scene whose file says \p D.
+reference::Options toReference(const Drawing &D);
 
 } // namespace vorion::splat

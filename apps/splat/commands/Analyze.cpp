@@ -257,17 +257,15 @@ Expected<Success> run(AnalyzeArguments A) {
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
-  A.Options.Antialiased = File->DrawnAs.Antialiased;
-  A.Options.Dilation = File->DrawnAs.Dilation.value_or(A.Options.Dilation);
   const auto Cameras = camerasOf(A, File->Gaussians);
   if (!Cameras)
     return Cameras.error();
   Camera C = Cameras->View;
   if (A.Width != 0)
     resize(C, A.Width);
-  A.Options.Rule = A.Convention == Rules::Inria ? reference::Rules::Inria
-                                                : reference::Rules::Gsplat;
-  A.Options.Reach = AnalyzedSupports[static_cast<std::size_t>(A.Reach)];
+  A.Options = toReference(File->DrawnAs);
+  A.Options.Rule = toReference(A.Convention);
+  A.Options.Reach = toReference(A.Reach);
   const Analysis R = analyze(toReference<float>(File->Gaussians),
                              toReference<float>(C), A.Options);
   std::optional<OrderAnalysis> Order;

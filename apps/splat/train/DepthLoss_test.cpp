@@ -73,8 +73,7 @@ protected:
 TEST_P(DepthLossOnDevice, GradientsAreThoseOfTheLoss) {
   const auto [Convention, Blending] = GetParam();
   reference::Options O;
-  O.Rule = Convention == Rules::Inria ? reference::Rules::Inria
-                                      : reference::Rules::Gsplat;
+  O.Rule = toReference(Convention);
   const Scene S = randomScene(Random, 24, 1);
   const Camera C = camera();
   const auto G = toReference<double>(S);

@@ -67,8 +67,7 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
     const Camera C = camera();
     const auto [Convention, Blending] = GetParam();
     reference::Options O;
-    O.Rule = Convention == Rules::Inria ? reference::Rules::Inria
-                                        : reference::Rules::Gsplat;
+    O.Rule = toReference(Convention);
     O.Antialiased = K.Antialiased;
     std::array<float, 3> Background{};
     if (K.Background) {
@@ -158,8 +157,7 @@ class AbsoluteSumsOnDevice : public GradientsOnDevice {};
 TEST_P(AbsoluteSumsOnDevice, AreThoseOfThePixels) {
   const auto [Convention, Blending] = GetParam();
   reference::Options O;
-  O.Rule = Convention == Rules::Inria ? reference::Rules::Inria
-                                      : reference::Rules::Gsplat;
+  O.Rule = toReference(Convention);
   const Scene S = sceneOf({6, 0, 0.6, -1.5, false});
   Camera C = camera();
   C.Width = 20;

@@ -46,8 +46,7 @@ class DisturbedPosesOnDevice : public PosesOnDevice {};
 TEST_P(PosesOnDevice, GradientsAreThoseOfThePose) {
   const auto [Convention, Blending] = GetParam();
   reference::Options O;
-  O.Rule = Convention == Rules::Inria ? reference::Rules::Inria
-                                      : reference::Rules::Gsplat;
+  O.Rule = toReference(Convention);
   for (const bool Antialiased : {false, true}) {
     O.Antialiased = Antialiased;
     const Scene S = randomScene(Random, 30, 2);

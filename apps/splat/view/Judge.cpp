@@ -12,28 +12,6 @@ namespace vorion::splat {
 
 namespace {
 
-reference::Options judgeOptions(const ShownScene &S) {
-  reference::Options O;
-  O.Antialiased = S.File.DrawnAs.Antialiased;
-  O.Dilation = S.File.DrawnAs.Dilation.value_or(O.Dilation);
-  return O;
-}
-
-/// Those knobs of \p R that say which Gaussians a pixel takes.
-reference::Options pixelOptions(const ShownScene &S, const ViewRequest &R) {
-  const RenderOptions From = optionsOf(R, S.File.DrawnAs);
-  reference::Options O = judgeOptions(S);
-  O.Reach = From.Reach == Support::Box3      ? reference::Support::Box3
-            : From.Reach == Support::Square3 ? reference::Support::Square3
-                                             : reference::Support::Exact;
-  O.AlphaCutoff = static_cast<int>(From.AlphaCutoff);
-  O.Cutoff = From.Cutoff;
-  O.DepthBits = static_cast<int>(From.DepthBits);
-  O.ShLimit = From.ShLimit;
-  O.TileSize = static_cast<int>(From.RasterTile);
-  return O;
-}
-
 /// Pixels of the picture in the box of \p S.
 uint64_t pixelsOf(const reference::Splat<double> &S, const Camera &View) {
   const auto Along = [](double Mean, double Extent, int Side) {
@@ -80,8 +58,9 @@ Judge::picture(const std::shared_ptr<const ShownScene> &S, const Camera &View,
     return Last.Picture;
   if (GiveUp())
     return superseded();
-  const auto Drawn = reference::render(
-      activated<double>(*S), toReference<double>(View), judgeOptions(*S));
+  const auto Drawn =
+      reference::render(activated<double>(*S), toReference<double>(View),
+                        toReference(S->File.DrawnAs));
   auto Picture = std::make_shared<std::vector<double>>();
   Picture->reserve(3 * Drawn.Render.size());
   for (const auto &Pixel : Drawn.Render)
@@ -93,7 +72,9 @@ Judge::picture(const std::shared_ptr<const ShownScene> &S, const Camera &View,
 std::vector<PixelGaussian>
 Judge::pixel(const std::shared_ptr<const ShownScene> &S, const ViewRequest &R) {
   const std::lock_guard Held(Lock);
-  const reference::Options O = pixelOptions(*S, R);
+  const RenderOptions Chosen = optionsOf(R, S->File.DrawnAs);
+  reference::Options O = toReference(Chosen);
+  O.TileSize = static_cast<int>(Chosen.RasterTile);
   const auto Found =
       [&]<typename Real>(const std::vector<reference::Splat<Real>> &Splats) {
         return reference::contributors(Splats, R.View.Width, R.View.Height, O,

@@ -181,9 +181,7 @@ RenderOptions optionsOf(const ViewRequest &R, const Drawing &D) {
   O.AlphaCutoff = Number(KnobId::AlphaCutoff);
   O.Cutoff = std::stof(S.value(KnobId::Cutoff));
   O.RasterTile = Number(KnobId::Tile);
-  for (const Support Each : {Support::Exact, Support::Box3, Support::Square3})
-    if (name(Each) == S.value(KnobId::Support))
-      O.Reach = Each;
+  O.Reach = S.support();
   O.ShLimit = static_cast<int>(Number(KnobId::ShDegree));
   O.DepthBits = Number(KnobId::DepthBits);
   O.ZTiles = Number(KnobId::ZTiles);

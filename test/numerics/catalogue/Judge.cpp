@@ -1,7 +1,7 @@
 #include "Judge.h"
 
 #include "Convert.h"
-#include "Tool.h"
+#include "analyze/ToReference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,22 +76,7 @@ bool showNormals(std::vector<reference::Splat<Real>> &Splats,
 } // namespace
 
 reference::Options referenceOptions(const splat::RenderOptions &O) {
-  reference::Options R;
-  R.Rule = O.Convention == splat::Rules::Inria ? reference::Rules::Inria
-                                               : reference::Rules::Gsplat;
-  R.Reach = supportNamed(std::string(name(O.Reach)));
-  R.Through = O.Through == splat::Spread::Jacobian
-                  ? reference::Spread::Jacobian
-                  : reference::Spread::Unscented;
-  R.Near = double(O.Near.value_or(0)); // 0: the rules' own
-  R.Antialiased = O.Antialiased;
-  R.Dilation = double(O.Dilation);
-  R.Cutoff = double(O.Cutoff);
-  R.AlphaCutoff = static_cast<int>(O.AlphaCutoff);
-  R.DepthBits = static_cast<int>(O.DepthBits);
-  R.ShLimit = O.ShLimit;
-  for (std::size_t K = 0; K < 3; ++K)
-    R.Background[K] = double(O.Background[K]);
+  reference::Options R = toReference(O);
   R.Threads = 1;
   return R;
 }
