@@ -24,6 +24,10 @@ typedef unsigned int uint;
    the optimiser from moving a call under a condition, nomerge from making one
    call of two. */
 #define VORION_INTRINSIC(name) __asm("vorion." #name) __attribute__((convergent, nomerge, nothrow))
+/* What only reads lanes changes no memory: an unused call goes, and of two equal
+   ones in a basic block, where the mask is the same, one stays. What needs order
+   says so with a fence. */
+#define VORION_PURE_INTRINSIC(name) VORION_INTRINSIC(name) __attribute__((pure))
 /* What the target lacks is an error at the call. (A front end for a plain RISC-V
    target, as PoCL's, knows neither extension and leaves it to the backend.) */
 #if defined(__riscv_xvortex) && !defined(__riscv_xvorion)
@@ -58,10 +62,21 @@ def descriptors(records, language):
         yield from language.structure(d.Name, d.Doc, d.Fields)
 
 
+def is_pure(intrinsic):
+    """Whether its instruction does nothing but compute its result, perhaps from other lanes' operands."""
+    return intrinsic.kind == "instruction" and {e.id for e in intrinsic.record.Effects.Effects} <= {"ReadsLanes"}
+
+
+def macro_of(intrinsic):
+    if intrinsic.extension == "xvorion":
+        return "VORION_XVORION_INTRINSIC"
+    return "VORION_PURE_INTRINSIC" if is_pure(intrinsic) else "VORION_INTRINSIC"
+
+
 def device(records):
     yield DEVICE_HEAD
     for i in intrinsics(records):
-        macro = "VORION_INTRINSIC" if i.extension == "xvortex" else f"VORION_{i.extension.upper()}_INTRINSIC"
+        macro = macro_of(i)
         yield f"/* {i.doc} */\n{i.prototype} {macro}({i.name});"
     yield "\n#ifdef __cplusplus\n}\n#endif\n"
     language = C(u32="uint", f32="float")

@@ -59,3 +59,68 @@ uint votes(uint a, uint b) {
     return vx_vote_any(b);
   return vx_vote_any(b);
 }
+
+// What only reads lanes changes no memory: unused it goes, and of two equal ones
+// under one mask one stays.
+// CHECK-LABEL: unused:
+// CHECK-NOT: vx_shfl_up
+// CHECK: ret
+uint unused(uint a, uint b) {
+  (void)vx_shfl_up(a, b);
+  return a;
+}
+
+// CHECK-LABEL: equal:
+// CHECK-COUNT-1: vx_shfl_up
+// CHECK-NOT: vx_shfl_up
+// CHECK: ret
+uint equal(uint a, uint b) { return vx_shfl_up(a, b) + vx_shfl_up(a, b); }
+
+// CHECK-LABEL: other_mask:
+// CHECK: vx_vote_ballot
+// CHECK: vx_tmc
+// CHECK: vx_vote_ballot
+// CHECK: ret
+uint other_mask(uint a) {
+  uint before = vx_vote_ballot(a);
+  vx_tmc(3);
+  return before + vx_vote_ballot(a);
+}
+
+// Under a condition fewer lanes may answer.
+// IR-LABEL: @fewer_lanes(
+// IR: call i32 @vorion.vx_vote_ballot
+// IR: br i1
+// IR: call i32 @vorion.vx_vote_ballot
+uint fewer_lanes(uint a, uint b) {
+  uint all = vx_vote_ballot(b);
+  if (a)
+    all += vx_vote_ballot(b);
+  return all;
+}
+
+// Nor does a vote leave its loop, from which lanes go one after the other.
+// IR-LABEL: @each_round(
+// IR: phi i32
+// IR: call i32 @vorion.vx_vote_ballot
+// IR: br i1
+uint each_round(uint a, uint n) {
+  uint sum = 0;
+  for (uint i = 0; i < n; ++i)
+    sum ^= vx_vote_ballot(a) + i;
+  return sum;
+}
+
+// A load that nothing stores to is done once, in front of the loop of votes.
+// IR-LABEL: @invariant(
+// IR: load i32, ptr %0
+// IR-NOT: load i32, ptr %0
+// IR: call i32 @vorion.vx_vote_ballot
+// IR-NOT: load i32, ptr %0
+// IR: {{^}}}
+uint invariant(const uint *restrict p, const uint *restrict q, uint n) {
+  uint sum = 0;
+  for (uint i = 0; i < n; ++i)
+    sum += vx_vote_ballot(q[i]) + *p;
+  return sum;
+}

@@ -26,7 +26,7 @@ static void add_of_warp(__local warp_parts *parts, bool has, const float *sum,
 #pragma unroll
   for (uint k = 0; k < ALL_SUMS; ++k)
     (*parts)[k][lane] = sum[k];
-  vx_vote_any(has); // a barrier of the warp
+  sub_group_barrier(CLK_LOCAL_MEM_FENCE);
   if (lane < ALL_SUMS)
     atomic_sum(to + lane * count, sum_of_lanes((*parts)[lane]));
 }

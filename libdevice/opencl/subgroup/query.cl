@@ -36,9 +36,11 @@ uint _CL_OVERLOADABLE get_enqueued_num_sub_groups(void) {
   return (enqueued_items() + lanes - 1) / lanes;
 }
 
-/* The lanes of a warp step together, and a core's accesses are in order. */
+/* The lanes of a warp step together, and a core's accesses are in order, so that
+   it takes no instruction. The empty assembly is convergent, which no fence of
+   LLVM is: it keeps the lanes together here, and accesses on their side. */
 void _CL_OVERLOADABLE sub_group_barrier(cl_mem_fence_flags flags) {
-  vx_vote_any(0);
+  __asm__ volatile("" ::: "memory");
   mem_fence(flags);
 }
 
