@@ -262,7 +262,8 @@ Expected<Success> run(EffectsArguments &A, DeviceOptions Machine) {
   if (!Modes)
     return Modes.error();
   F.Modes = *Modes;
-  for (const EffectDecision &D : EffectPlan({}, In).decisions())
+  const EffectPlan Auto({}, In);
+  for (const EffectDecision &D : Auto.decisions())
     if (D.Subject->Kind == EffectKind::Scene && !D.Subject->ByCamera &&
         D.Detected.Applies)
       (D.Done ? F.Needed : F.NotNeeded).emplace_back(D.Subject->Name);
