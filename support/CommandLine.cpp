@@ -204,7 +204,7 @@ const CLI::Option *optionNamed(const CLI::App *App, const std::string &Name) {
 /// the kind of the error and by the options' values; of the text, which differs
 /// between versions of CLI11, only the option's name is used.
 std::string describe(const CLI::App &App, const CLI::ParseError &E) {
-  const std::string Said = E.what();
+  std::string Said = E.what();
   switch (static_cast<CLI::ExitCodes>(E.get_exit_code())) {
   case CLI::ExitCodes::ExcludesError:
     return Said + ", expected one of them";

@@ -9,6 +9,8 @@
 namespace vorion::splat {
 namespace {
 
+// NOLINTBEGIN(readability-identifier-naming): nanoflann's names.
+
 /// The points, as nanoflann reads them.
 struct Points {
   const std::vector<float> &Positions;
@@ -41,6 +43,8 @@ struct NearestSet : nanoflann::KNNResultSet<double, uint32_t> {
     return Worst > 0 ? Worst : -1;
   }
 };
+
+// NOLINTEND(readability-identifier-naming)
 
 } // namespace
 
