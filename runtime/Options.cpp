@@ -84,8 +84,9 @@ Error DeviceOptions::ofMachine(Error E) const {
   return isasim::ofMachine(std::move(E), !Config.empty(), !Set.empty());
 }
 
-/// A process may open a device several times, which is said once. Who asks for
-/// no clock wants to hear of no cycles.
+/// A process may open a device several times; each note is printed once.
+/// Without a clock, at the user's request, no setting changes a cycle, and no
+/// note is printed.
 void DeviceOptions::noteIdle(const isasim::Config &Before,
                              const isasim::Config &After) const {
   if (const auto Clock = ClockText::parse(Time);

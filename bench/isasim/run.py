@@ -47,8 +47,6 @@ TITLES = {"integer": "integer mix", "matmul": "fp32 matrix product 128", "radixs
 OBSERVED = ("matmul", "radixsort")  # what is run with and without observers built in
 
 # What render/Plan.cpp compiles the projection with by default, for a scene with all bands of colour.
-PROJECT_FILES = ("layout.h", "has_lens.h", "activate.cl", "covariance.cl", "support.cl", "planes.h", "sh_basis.h", "sh.cl", "rectangle.cl",
-                 "camera_depth.cl", "project_memory.cl", "project.cl")
 PROJECT_DEFINES = ("-DTILE_SIZE=64", "-DSUPPORT_EXACT", "-DDILATION=0.3f", "-DALPHA_CUTOFF=1.0f",
                    "-DKEEP_DEPTH(z)=((z)>0.2f)", "-DANTIALIAS_FLOOR=2.5e-5f", "-DUSE_SH1=1", "-DUSE_SH2=1", "-DUSE_SH3=1",
                    "-DUSE_VIEW_COLOR=1", "-DUSE_ANTIALIAS=0", "-DUSE_NEAR_PLANE=1", "-DUSE_FIELD_OF_VIEW=1",
@@ -137,11 +135,7 @@ def scene(prefix, count):
 
 def build_project(device_repeats, scalar_repeats):
     assert device_repeats == 1
-    source = "#pragma OPENCL FP_CONTRACT OFF\n"
-    for file in PROJECT_FILES:
-        with open(os.path.join(KERNELS, file), encoding="utf-8") as text:
-            source += text.read()
-    write("project.cl", source)
+    write("project.cl", f'#pragma OPENCL FP_CONTRACT OFF\n#include "{os.path.join(KERNELS, "project.cl")}"\n')
     scene("device-", DEVICE_COUNT)
     scene("", SCALAR_COUNT)
     run("vorion-clang", "-O3", *PROJECT_DEFINES, "project.cl", "-o", "project.elf")

@@ -20,7 +20,7 @@ namespace {
 Expected<Success> checkSettings(const std::string &Settings,
                                 const DeviceOptions &Base) {
   DeviceOptions Machine = changed(Base, Settings);
-  Machine.set("VORION_TIME", "off"); // nobody chose these values to see cycles
+  Machine.set("VORION_TIME", "off"); // the machine is checked, not measured
   const auto Opened = inOwnProcess([&]() -> Expected<std::string> {
     const auto D = Device::open("", Machine);
     return D ? D->name() : Expected<std::string>(D.error());

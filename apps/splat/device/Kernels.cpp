@@ -3,7 +3,6 @@
 #include "vorion/support/File.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <set>
 

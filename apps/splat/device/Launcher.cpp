@@ -98,8 +98,7 @@ std::vector<StageReport> Launcher::takeStages() {
 Expected<std::string> Launcher::sourceOf(const ProgramSpec &Spec) const {
   // No operation may be fused or reordered: the paths, the reference and the
   // rasterizer round alike (docs/abi.md).
-  const auto Text = KernelFolder.empty() ? programText(Spec.File)
-                                         : programText(Spec.File, KernelFolder);
+  const auto Text = programText(Spec.File, KernelFolder);
   return Text ? "#pragma OPENCL FP_CONTRACT OFF\n" + *Text : Text;
 }
 

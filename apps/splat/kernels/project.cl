@@ -6,22 +6,13 @@
 #include "activate.cl"
 #include "camera_depth.cl"
 #include "covariance.cl"
-#include "has_lens.h"
 #include "layout.h"
 #include "planes.h"
 #include "project_memory.cl"
 #include "rectangle.cl"
 #include "sh.cl"
 #include "support.cl"
-#if HAS_LENS
-#include "lens.cl"
-#if USE_ROLLING_SHUTTER
-#include "rolling.cl"
-#endif
-#if USE_UNSCENTED
-#include "unscented.cl"
-#endif
-#endif
+#include "camera.cl"
 #if USE_NEEDLES
 #include "across.cl"
 #endif

@@ -6,22 +6,13 @@
 #include "activate.cl"
 #include "backward.cl"
 #include "covariance.cl"
-#include "has_lens.h"
 #include "layout.h"
 #include "planes.h"
 #include "sh_backward.cl"
 #ifdef POSES
 #include "pose.h"
 #endif
-#if HAS_LENS
-#include "lens.cl"
-#if USE_ROLLING_SHUTTER
-#include "rolling.cl"
-#endif
-#if USE_UNSCENTED
-#include "unscented.cl"
-#endif
-#endif
+#include "camera.cl"
 #if USE_ROLLING_SHUTTER
 #include "rolling_backward.cl"
 #endif

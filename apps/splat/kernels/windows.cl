@@ -4,19 +4,10 @@
 
 #include "activate.cl"
 #include "covariance.cl"
-#include "has_lens.h"
 #include "layout.h"
 #include "planes.h"
 #include "rectangle.cl"
-#if HAS_LENS
-#include "lens.cl"
-#if USE_ROLLING_SHUTTER
-#include "rolling.cl"
-#endif
-#if USE_UNSCENTED
-#include "unscented.cl"
-#endif
-#endif
+#include "camera.cl"
 #include "crop.cl"
 
 // Square tiles, unless the plan says otherwise.
