@@ -23,7 +23,7 @@ BEGIN, END = "<!-- house -->\n", "<!-- /house -->\n"
 FLOORS = ("support", "intrinsics", "llvm-backend", "libdevice", "isasim", "runtime", "reference", "apps")
 # (folder, what it uses above itself): why.
 EXCEPTIONS = {
-    ("isasim/core", "isasim/timing"):
+    ("isasim/core", "isasim/timing/trace"):
         "the timed build of the instructions writes what the clock reads, inline (adr 0007)",
     ("apps/splat/scene", "apps/splat/scene/formats"):
         "reading any scene asks each format's reader, and what they read is a scene",

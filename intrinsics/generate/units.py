@@ -60,7 +60,7 @@ def raster(records):
 
 
 def clock(records):
-    yield from cpp("vorion::isasim", '"raster/UnitTables.h"', '"timing/DatapathUnits.h"')
+    yield from cpp("vorion::isasim", '"raster/UnitTables.h"', '"timing/common/DatapathUnits.h"')
     for kind in KINDS:
         yield f"inline constexpr DatapathUnit {kind}Parts[raster::{kind}UnitCount] = {{"
         for u in by_number(records, kind):

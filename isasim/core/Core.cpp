@@ -5,7 +5,7 @@
 #include "core/Observing.h"
 #include "core/Rounding.h"
 #include "core/Warps.h"
-#include "timing/TraceWriter.h"
+#include "timing/trace/TraceWriter.h"
 #include "vorion/isasim/Launch.h"
 #include "vorion/isasim/TrapCause.h"
 

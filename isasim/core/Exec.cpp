@@ -21,7 +21,7 @@
 #include "core/Rounding.h"
 #include "core/SoftFloat.h"
 #include "core/Warps.h"
-#include "timing/TraceAppend.h"
+#include "timing/trace/TraceRecords.h"
 #include "vorion/isasim/TrapCause.h"
 
 #ifdef VORION_OBSERVED
@@ -30,7 +30,7 @@
 #define VORION_REPORT(S, I) ((void)0)
 #endif
 #ifdef VORION_TIMED
-// For the clock (timing/TraceWriter.h).
+// For the clock (timing/trace/TraceWriter.h).
 #define VORION_TRACE_RUN(S, START, END)                                        \
   ((S)->Trace ? outside<traceRun>(S, START, END) : (void)0)
 #define VORION_TRACE_ACCESS(S, ADDRESSES, BYTES, IS_STORE, IS_ATOMIC)          \

@@ -1,7 +1,7 @@
 #include "energy/Costs.h"
 
 #include "raster/UnitTables.h"
-#include "timing/DatapathUnits.h"
+#include "timing/common/DatapathUnits.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "machine/ConfigKeys.h"
 #include "machine/MachineTexts.h"
-#include "timing/DramChannels.h"
+#include "timing/memory/DramChannels.h"
 #include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Suggest.h"

@@ -1,7 +1,7 @@
 #include "machine/KeyLimits.h"
 
-#include "timing/DispatchTable.h"
-#include "timing/OpClass.h"
+#include "timing/core/OpClass.h"
+#include "timing/raster/DispatchTable.h"
 
 #include <algorithm>
 

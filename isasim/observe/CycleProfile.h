@@ -3,7 +3,7 @@
 #pragma once
 
 #include "observe/SourceCosts.h"
-#include "timing/TimeObserver.h"
+#include "timing/common/TimeObserver.h"
 
 #include <array>
 #include <cstdint>

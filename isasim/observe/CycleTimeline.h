@@ -3,7 +3,7 @@
 #pragma once
 
 #include "observe/TraceEvents.h"
-#include "timing/TimeObserver.h"
+#include "timing/common/TimeObserver.h"
 #include "vorion/isasim/Config.h"
 
 #include <algorithm>

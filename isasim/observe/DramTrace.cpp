@@ -2,7 +2,7 @@
 /// other people's models (docs/debugging.md).
 
 #include "observe/Tool.h"
-#include "timing/TimeObserver.h"
+#include "timing/common/TimeObserver.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/GrowingFile.h"
 

@@ -5,7 +5,7 @@
 #include "observe/CodeText.h"
 #include "observe/SettingsOnce.h"
 #include "observe/Tool.h"
-#include "timing/TimeObserver.h"
+#include "timing/common/TimeObserver.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
 

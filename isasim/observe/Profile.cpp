@@ -4,7 +4,7 @@
 #include "observe/CycleProfile.h"
 #include "observe/ProfileJson.h"
 #include "observe/Tool.h"
-#include "timing/LinesOfAccess.h"
+#include "timing/trace/LinesOfAccess.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
 

@@ -2,7 +2,7 @@
 
 #include "observe/Tool.h"
 #include "raster/WorkLog.h"
-#include "timing/TimeObserver.h"
+#include "timing/common/TimeObserver.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/GrowingFile.h"
 #include "vorion/support/Json.h"

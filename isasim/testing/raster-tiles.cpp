@@ -5,7 +5,7 @@
 #include "raster/RandomScene.h"
 #include "raster/Rasterizer.h"
 #include "testing/RasterTile.h"
-#include "timing/RasterClock.h"
+#include "timing/raster/RasterClock.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Tool.h"

@@ -3,11 +3,11 @@
 
 #include "core/HostBudget.h"
 #include "raster/WorkLog.h"
-#include "timing/CoreClock.h"
-#include "timing/InstructionCache.h"
-#include "timing/PixelClock.h"
-#include "timing/RasterClock.h"
-#include "timing/TimeObserver.h"
+#include "timing/common/TimeObserver.h"
+#include "timing/core/CoreClock.h"
+#include "timing/core/InstructionCache.h"
+#include "timing/raster/PixelClock.h"
+#include "timing/raster/RasterClock.h"
 #include "vorion/isasim/Config.h"
 
 #include <memory>

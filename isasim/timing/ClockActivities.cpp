@@ -2,7 +2,7 @@
 // which energy is counted by (docs/energy.md).
 #include "raster/BlockTests.h"
 #include "timing/Clock.h"
-#include "timing/DatapathUnits.h"
+#include "timing/common/DatapathUnits.h"
 #include "timing/dram/TimingTable.h"
 
 namespace vorion::isasim {

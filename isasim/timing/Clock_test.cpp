@@ -1,6 +1,6 @@
 /// The clock on programs whose time is known.
 #include "testing/TimedPrograms.h"
-#include "timing/DramChannels.h"
+#include "timing/memory/DramChannels.h"
 
 #include <cstring>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "raster/UnitTables.h"
-#include "timing/DatapathUnits.h"
+#include "timing/common/DatapathUnits.h"
 #include "vorion/isasim/Timing.h"
 
 #include <fmt/format.h>

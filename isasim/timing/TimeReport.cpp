@@ -1,4 +1,4 @@
-#include "timing/DatapathUnits.h"
+#include "timing/common/DatapathUnits.h"
 #include "vorion/isasim/Timing.h"
 #include "vorion/support/Json.h"
 

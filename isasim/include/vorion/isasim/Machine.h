@@ -77,8 +77,9 @@ public:
   /// which then use one host thread. They change no result.
   void setObservers(std::vector<Observer *> Observers);
 
-  /// The observers of the clock (timing/TimeObserver.h, for those of this
-  /// library) watch it in the following runs. Without a clock nothing happens.
+  /// The observers of the clock (timing/common/TimeObserver.h, for those of
+  /// this library) watch it in the following runs. Without a clock nothing
+  /// happens.
   void setTimeObservers(std::vector<TimeObserver *> Observers);
 
   /// Whether the clock, where there is one, goes on in the following runs; it

@@ -1,0 +1,87 @@
+/// The way from the chip to its L2 where that has a clock of its own or lies
+/// on another chip, as on the FPGA beside a prototype.
+#pragma once
+
+#include "timing/common/Turn.h"
+#include "timing/dram/TimeQueue.h"
+#include "timing/memory/Cache.h"
+
+#include <cstdint>
+
+namespace vorion::isasim {
+
+/// Two directions that carry messages one after the other. Here cycles of the
+/// chip become cycles of the L2, and come back.
+class L2Link {
+public:
+  explicit L2Link(const TimingConfig &Params);
+
+  /// Whether there is anything between the chip and the L2. Otherwise their
+  /// cycles are the same, and nothing else of this is asked for.
+  static bool exists(const TimingConfig &Params);
+  /// The clock of all that lies behind the link.
+  static uint32_t l2Mhz(const TimingConfig &Params) {
+    return Params.Link.L2Mhz ? Params.Link.L2Mhz : Params.ClockMhz;
+  }
+
+  /// \name Cycles of the L2 in cycles of the chip
+  /// @{
+  /// The first that does not begin before \p L2Cycle.
+  uint64_t toChip(uint64_t L2Cycle) const;
+  /// The last that does not begin after \p Cycle, and the first that does not
+  /// begin before it.
+  uint64_t lastInL2(uint64_t Cycle) const;
+  uint64_t firstInL2(uint64_t Cycle) const;
+  /// @}
+
+  struct Sent {
+    uint64_t Gone;  ///< cycle of the chip: the sender has got rid of it
+    uint64_t There; ///< cycle of the L2
+  };
+  /// A request leaves at the chip's cycle \p Now, behind those before it.
+  Sent send(uint64_t Now, CacheOp Op);
+
+  /// An answer, a line, waits at the L2 from the L2's cycle A.At on. Answers
+  /// leave in the order of that time, so that nobody knows yet when it comes.
+  void give(const Answer &A);
+  /// The L2's cycle in which the next answer leaves if nothing else comes;
+  /// Turn::Never if none waits.
+  uint64_t nextAnswer() const {
+    return Answers.empty() ? Turn::Never : Answers.front().What.At;
+  }
+  /// Sends the answer of nextAnswer(); its time is the chip's cycle in which it
+  /// is there.
+  Answer takeAnswer();
+
+  uint64_t bytesToL2() const { return To.Bytes; }
+  uint64_t bytesFromL2() const { return From.Bytes; }
+  void clearCounters() { To.Bytes = From.Bytes = 0; }
+
+private:
+  /// One way. Times are in ps.
+  struct Direction {
+    uint64_t Latency, Mbps;
+    uint64_t FreeAt = 0;
+    uint64_t Bytes = 0;
+    /// When a message of \p Count bytes has left that is there at \p Now.
+    uint64_t leave(uint64_t Now, uint32_t Count);
+  };
+  struct Waiting {
+    Answer What;
+    uint64_t Number; ///< orders those of one time
+  };
+  struct IsBefore {
+    bool operator()(const Waiting &A, const Waiting &B) const {
+      return A.What.At != B.What.At ? A.What.At < B.What.At
+                                    : A.Number < B.Number;
+    }
+  };
+
+  const uint64_t ChipMhz, Mhz;
+  const uint32_t HeaderBytes;
+  Direction To, From;
+  TimeQueue<Waiting, IsBefore> Answers;
+  uint64_t Given = 0;
+};
+
+} // namespace vorion::isasim
