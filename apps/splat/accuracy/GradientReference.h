@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/Scene.h"
-#include "train/TrainingSet.h"
+#include "train/data/TrainingSet.h"
 #include "vorion/support/Expected.h"
 
 #include <array>

@@ -3,7 +3,7 @@
 #include "capture/Capture.h"
 #include "commands/Choices.h"
 #include "io/ReportHead.h"
-#include "train/Start.h"
+#include "train/data/Start.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"

@@ -13,7 +13,7 @@
 #include "io/ReportHead.h"
 #include "picture/View.h"
 #include "render/Pictures.h"
-#include "train/RunRecord.h"
+#include "train/run/RunRecord.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"

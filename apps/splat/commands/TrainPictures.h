@@ -2,7 +2,7 @@
 /// held-out pictures beside their photographs.
 #pragma once
 
-#include "train/Training.h"
+#include "train/run/Training.h"
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 /// The options of `splat train` that set one of its settings.
 #pragma once
 
-#include "train/SettingsTable.h"
+#include "train/settings/SettingsTable.h"
 
 #include <CLI/CLI.hpp>
 #include <string>

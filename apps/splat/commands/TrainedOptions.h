@@ -3,7 +3,7 @@
 #pragma once
 
 #include "commands/TrainSettingOptions.h"
-#include "train/Training.h"
+#include "train/run/Training.h"
 
 #include <CLI/CLI.hpp>
 

@@ -2,8 +2,8 @@
 
 #include "capture/Photo.h"
 #include "io/Hash.h"
-#include "train/Checkpoint.h"
-#include "train/SettingsTable.h"
+#include "train/run/Checkpoint.h"
+#include "train/settings/SettingsTable.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>

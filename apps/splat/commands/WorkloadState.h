@@ -2,7 +2,7 @@
 #pragma once
 
 #include "commands/WorkloadParts.h"
-#include "train/Training.h"
+#include "train/run/Training.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/Renderer.h"
-#include "train/TrainingSet.h"
+#include "train/data/TrainingSet.h"
 
 #include <optional>
 #include <string>

@@ -59,9 +59,9 @@ std::vector<CaseElsewhere> casesElsewhere() {
        "counted, with the picture's PSNR; the view itself turns none",
        "test/render/analyze.test"},
       {"a picture of which no pixel counts", "one line that names its mask",
-       "apps/splat/train/TrainingSet_test.cpp"},
+       "apps/splat/train/data/TrainingSet_test.cpp"},
       {"random backgrounds of a run that goes on", "the same bits",
-       "apps/splat/train/Trainer_test.cpp"}};
+       "apps/splat/train/run/Trainer_test.cpp"}};
 }
 
 } // namespace vorion::test

@@ -5,7 +5,7 @@
 #include "Build.h"
 #include "picture/Layout.h"
 #include "scene/Activation.h"
-#include "train/Mcmc.h"
+#include "train/optimize/Mcmc.h"
 
 #include <algorithm>
 #include <cmath>

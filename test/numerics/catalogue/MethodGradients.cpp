@@ -9,8 +9,8 @@
 #include "picture/Layout.h"
 #include "reference/Backward.h"
 #include "reference/Render.h"
-#include "train/DeviceRenderer.h"
-#include "train/Pose.h"
+#include "train/optimize/DeviceRenderer.h"
+#include "train/optimize/Pose.h"
 
 #include <algorithm>
 #include <cmath>

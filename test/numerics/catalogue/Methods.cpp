@@ -6,9 +6,9 @@
 #include "device/Values.h"
 #include "picture/Layout.h"
 #include "reference/Loss.h"
-#include "train/Adam.h"
-#include "train/Exposure.h"
-#include "train/PictureLoss.h"
+#include "train/optimize/Adam.h"
+#include "train/optimize/Exposure.h"
+#include "train/optimize/PictureLoss.h"
 
 #include <algorithm>
 #include <cmath>

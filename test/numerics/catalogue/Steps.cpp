@@ -6,8 +6,8 @@
 #include "picture/Layout.h"
 #include "reference/Adam.h"
 #include "reference/Loss.h"
-#include "train/Adam.h"
-#include "train/PictureLoss.h"
+#include "train/optimize/Adam.h"
+#include "train/optimize/PictureLoss.h"
 
 #include <algorithm>
 #include <cmath>

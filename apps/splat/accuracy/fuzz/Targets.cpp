@@ -6,8 +6,8 @@
 #include "accuracy/TrainSweep.h"
 
 #include "io/Hash.h"
-#include "train/Checkpoint.h"
-#include "train/RunRecord.h"
+#include "train/run/Checkpoint.h"
+#include "train/run/RunRecord.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/TemporaryFolder.h"

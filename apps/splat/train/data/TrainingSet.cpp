@@ -1,0 +1,135 @@
+#include "train/data/TrainingSet.h"
+
+#include "capture/Undistort.h"
+#include "train/data/DepthPoints.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+namespace {
+
+Expected<Plane> readPhoto(const std::string &Path) {
+  const auto File = readRegularFile(Path);
+  return File ? decodePhoto(Path, *File) : File.error();
+}
+
+/// Which pixels of \p P, the picture of \p V, count: in a mask file those that
+/// are not black, by alpha those that are not transparent.
+Expected<std::vector<uint8_t>> countsOf(const CaptureView &V, const Plane &P,
+                                        MaskSource Source) {
+  std::vector<uint8_t> Counts;
+  if (Source == MaskSource::Alpha) {
+    for (std::size_t I = 0; I < P.pixels(); ++I)
+      Counts.push_back(P.at(I, 3) != 0 ? 1 : 0);
+  } else if (!V.Mask.empty()) {
+    const auto Mask = readPhoto(V.Mask);
+    if (!Mask)
+      return Mask.error();
+    if (Mask->Width != P.Width || Mask->Height != P.Height)
+      return Error{V.Mask,
+                   fmt::format("{}x{} pixels, expected {}x{} as its "
+                               "picture has",
+                               Mask->Width, Mask->Height, P.Width, P.Height)};
+    for (std::size_t I = 0; I < P.pixels(); ++I)
+      Counts.push_back(
+          (Mask->at(I, 0) | Mask->at(I, 1) | Mask->at(I, 2)) != 0 ? 1 : 0);
+  }
+  return Counts;
+}
+
+Expected<TrainView> load(const CaptureView &V, const CapturePoints &Points,
+                         const LoadOptions &O) {
+  auto Full = readPhoto(V.Picture);
+  if (!Full)
+    return Full.error();
+  auto Counts = countsOf(V, *Full, O.Masks);
+  if (!Counts)
+    return Counts.error();
+  MaskedPlane Taken{std::move(*Full), std::move(*Counts)};
+  Camera Pose = V.Pose;
+  if (O.Pictures == LensOf::Photograph)
+    Pose.Optics = V.Optics;
+  else if (!V.Optics.isPinhole())
+    Taken = undistorted(Taken, Pose, V.Optics);
+  const Plane &P = Taken.Picture;
+  const int Width = shrunkSide(Pose.Width, O.Downscale);
+  const int Height = shrunkSide(Pose.Height, O.Downscale);
+  TrainView T{stretched(Pose, Width, Height),
+              shrink(P, Width, Height, O.Background),
+              shrinkCounts(Taken.Counts, P.Width, P.Height, Width, Height),
+              {}};
+  if (std::ranges::find(T.Counts, 0) == T.Counts.end())
+    T.Counts.clear();
+  else if (std::ranges::find(T.Counts, 1) == T.Counts.end())
+    return Error{V.Mask.empty() ? V.Picture : V.Mask,
+                 "no pixel counts, expected some"};
+  for (std::size_t I = 0; I < T.Counts.size(); ++I)
+    if (T.Counts[I] == 0)
+      std::fill_n(T.Picture.Rgb.begin() + static_cast<std::ptrdiff_t>(3 * I), 3,
+                  0);
+  if (O.KeepAlpha) {
+    T.Alpha = shrinkAlpha(P, Width, Height);
+    if (std::ranges::all_of(T.Alpha, [](uint8_t A) { return A == 255; }))
+      T.Alpha.clear();
+  }
+  if (O.KeepDepths)
+    T.Depths = depthPoints(T.Pose, Points, V.Sees, T.Counts);
+  return T;
+}
+
+} // namespace
+
+Photo over(const TrainView &V, const std::array<float, 3> &Was,
+           const std::array<float, 3> &Is) {
+  Photo P = V.Picture;
+  for (std::size_t I = 0; I < V.Alpha.size(); ++I)
+    if (V.Counts.empty() || V.Counts[I] != 0)
+      for (std::size_t K = 0; K < 3; ++K) {
+        const double Level =
+            P.Rgb[3 * I + K] +
+            (255.0 - V.Alpha[I]) * (double{Is[K]} - double{Was[K]});
+        P.Rgb[3 * I + K] =
+            static_cast<uint8_t>(std::clamp(std::lround(Level), 0L, 255L));
+      }
+  return P;
+}
+
+std::vector<Camera> TrainingSet::cameras() const {
+  std::vector<Camera> All;
+  for (const auto *Views : {&Training, &HeldOut})
+    for (const TrainView &V : *Views)
+      All.push_back(V.Pose);
+  return All;
+}
+
+std::pair<int, int> TrainingSet::largest() const {
+  std::pair<int, int> Size{0, 0};
+  for (const auto *Views : {&Training, &HeldOut})
+    for (const TrainView &V : *Views)
+      Size = {std::max(Size.first, V.Picture.Width),
+              std::max(Size.second, V.Picture.Height)};
+  return Size;
+}
+
+std::size_t TrainingSet::depths() const {
+  std::size_t Count = 0;
+  for (const TrainView &V : Training)
+    Count += V.Depths.size();
+  return Count;
+}
+
+Expected<TrainingSet> loadTrainingSet(const Capture &C, const LoadOptions &O) {
+  TrainingSet Set;
+  for (const CaptureView &V : C.Views) {
+    auto Loaded = load(V, C.Points, O);
+    if (!Loaded)
+      return Loaded.error();
+    (V.HeldOut ? Set.HeldOut : Set.Training).push_back(std::move(*Loaded));
+  }
+  return Set;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,64 @@
+/// Density control as Markov chain Monte Carlo (Kheradmand et al. 2024, as
+/// gsplat has it): moves, draws, random steps. Kernels in kernels/mcmc.cl.
+#pragma once
+
+#include "render/Sorter.h"
+#include "train/optimize/Density.h"
+#include "train/optimize/DeviceScene.h"
+#include "train/settings/Settings.h"
+
+#include <vector>
+
+namespace vorion::splat {
+
+inline constexpr const char *McmcProgram = "mcmc";
+ProgramSpec mcmcProgram();
+
+/// Needs the programs scan and sort to be built beside its own. Random numbers
+/// depend on seed, iteration and the Gaussian's identity or the draw's number.
+class McmcControl {
+public:
+  McmcControl(Launcher &Launch, const TrainSettings &Rules, uint64_t RandomSeed)
+      : Launch(Launch), Settings(Rules), Seed(RandomSeed), Sort(Launch) {}
+
+  /// Moves what is as good as transparent to places drawn by opacity, then
+  /// draws more, until there are Settings.MostGaussians. Moments of what moved
+  /// and of where it moved to begin with 0, as do those of new ones.
+  DensityChange change(DeviceScene &S, unsigned Iteration);
+  /// A random step for each: up to \p Rate times the covariance.
+  void addNoise(DeviceScene &S, unsigned Iteration, double Rate);
+
+private:
+  /// What is drawn: by which Gaussians, and how often each.
+  struct Draw {
+    cl::Buffer Sources, Drawn;
+  };
+  struct Weights {
+    cl::Buffer Sums, Dead;
+    uint32_t Total = 0;
+  };
+  /// Of Gaussians with more than \p DeadLogit.
+  Weights weigh(const DeviceScene &S, float DeadLogit);
+  Draw draw(const DeviceScene &S, const Weights &W, uint32_t Draws,
+            uint32_t Kind, unsigned Iteration);
+  void share(DeviceScene &S, const Draw &D);
+  void relocate(DeviceScene &S, unsigned Iteration);
+  void grow(DeviceScene &S, uint32_t After, unsigned Iteration);
+  void identify(const cl::Buffer &Identities, const Draw &D,
+                const cl::Buffer *List, uint32_t Count, uint32_t Draws,
+                unsigned Iteration);
+  uint32_t total(const cl::Buffer &Values, const cl::Buffer &Sums,
+                 uint32_t Count);
+  cl::Buffer words(std::string_view What, uint64_t N) {
+    return Launch.allocate(What, 4 * N);
+  }
+  uint32_t seedLow() const { return static_cast<uint32_t>(Seed); }
+  uint32_t seedHigh() const { return static_cast<uint32_t>(Seed >> 32); }
+
+  Launcher &Launch;
+  const TrainSettings &Settings;
+  uint64_t Seed;
+  Sorter Sort;
+};
+
+} // namespace vorion::splat

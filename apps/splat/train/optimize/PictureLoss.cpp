@@ -1,0 +1,105 @@
+#include "train/optimize/PictureLoss.h"
+
+#include "render/Pipeline.h"
+
+#include <fmt/format.h>
+
+namespace vorion::splat {
+namespace {
+
+// A group of kernels/loss.cl has a channel of a tile; with its windows' reach a
+// tile has two warps of rows.
+constexpr uint32_t TileRows = 21, Channels = 3;
+constexpr uint64_t SlopePlanes = uint64_t{3} * Channels;
+
+constexpr uint32_t divideUp(uint32_t A, uint32_t B) { return (A + B - 1) / B; }
+
+} // namespace
+
+ProgramSpec lossProgram() {
+  return {
+      LossProgram,
+      "loss.cl",
+      {fmt::format("LANES={}", Lanes), fmt::format("TILE_ROWS={}", TileRows)}};
+}
+
+ProgramSpec maskProgram() { return {MaskProgram, "mask.cl", {}}; }
+
+void PictureLoss::reserve(uint64_t Pixels, uint64_t Tiles) {
+  if (Pixels > Room) {
+    Room = Pixels;
+    Packed = Launch.allocate("photograph", 4 * Pixels);
+    Gradient = Launch.allocate("picture's gradient", 12 * Pixels);
+    NoAlpha = Launch.allocate("alpha's gradient", 4 * Pixels);
+    const std::vector<float> Zeros(Pixels, 0);
+    Launch.write("alpha's gradient", NoAlpha, Zeros.data(), 4 * Zeros.size());
+  }
+  if (Tiles > TileRoom) {
+    TileRoom = Tiles;
+    Slopes = Launch.allocate("loss's slopes",
+                             4 * SlopePlanes * Tiles * Lanes * TileRows);
+    Totals = Launch.allocate("loss's sums", 8 * Channels * Tiles);
+  }
+}
+
+LossValues PictureLoss::evaluate(const cl::Buffer &Drawn, const Photo &Target,
+                                 const std::vector<uint8_t> &Counts) {
+  const auto Width = static_cast<uint32_t>(Target.Width);
+  const auto Height = static_cast<uint32_t>(Target.Height);
+  const auto Pixels = static_cast<uint32_t>(Target.pixels());
+  const uint32_t Across = divideUp(Width, Lanes);
+  const uint32_t Down = divideUp(Height, TileRows);
+  // The gradient is written for all rows of the tiles.
+  reserve(uint64_t{Width} * Down * TileRows, uint64_t{Across} * Down);
+  HostPacked.resize(Pixels);
+  for (std::size_t I = 0; I < Pixels; ++I)
+    HostPacked[I] = Target.Rgb[3 * I] | Target.Rgb[3 * I + 1] << 8 |
+                    Target.Rgb[3 * I + 2] << 16;
+  uint32_t Counted = Pixels;
+  for (std::size_t I = 0; I < Counts.size(); ++I)
+    if (Counts[I] != 0) {
+      HostPacked[I] |= uint32_t{1} << 24;
+    } else {
+      HostPacked[I] = 0;
+      --Counted;
+    }
+  Launch.write("photograph", Packed, HostPacked.data(), 4 * HostPacked.size());
+
+  cl::Buffer Picture = Drawn;
+  if (!Counts.empty()) {
+    if (Pixels > MaskRoom) {
+      MaskRoom = Pixels;
+      Masked = Launch.allocate("masked picture", 16 * uint64_t{Pixels});
+    }
+    Picture = Masked;
+    Launch.run(MaskProgram, "mask_picture", itemsFor(Pixels), GroupSize, Drawn,
+               Packed, Masked, Pixels);
+  }
+  const double Samples = 3.0 * Counted;
+  const cl::NDRange Items(std::size_t{Across} * Lanes, Down, Channels);
+  const cl::NDRange Group(Lanes, 1, 1);
+  Launch.run(LossProgram, "loss_slopes", Items, Group, Picture, Packed, Slopes,
+             Totals, Width, Height);
+  Launch.run(LossProgram, "loss_gradient", Items, Group, Picture, Packed,
+             Slopes, Gradient, Width, Height,
+             static_cast<float>((1 - DSsim) / Samples),
+             static_cast<float>(DSsim / Samples));
+  if (!Counts.empty())
+    Launch.run(MaskProgram, "mask_gradient", itemsFor(Pixels), GroupSize,
+               Packed, Gradient, Pixels);
+
+  HostTotals.assign(std::size_t{2} * Channels * Across * Down, 0);
+  Launch.read("loss", HostTotals.data(), Totals, 4 * HostTotals.size());
+  LossValues V;
+  for (std::size_t I = 0; I < HostTotals.size(); I += 2) {
+    V.Absolute += HostTotals[I];
+    V.Ssim += HostTotals[I + 1];
+  }
+  V.Absolute /= Samples;
+  // Where nothing counts all around, SSIM is 1 by definition.
+  V.Ssim = (V.Ssim - (3.0 * Pixels - Samples)) / Samples;
+  V.Value = (1 - DSsim) * V.Absolute + DSsim * (1 - V.Ssim);
+  return V;
+}
+
+} // namespace vorion::splat
