@@ -25,7 +25,7 @@ import clocked
 import command_line
 import kept
 import scenes
-from kernels import functions
+from kernels import functions, resources_to
 
 # Beyond rv32imaf and what the machine is made of (docs/abi.md).
 EXTENSIONS = ("zicond", "zba", "zbb", "zbs")
@@ -75,7 +75,7 @@ def draw(options, scene, view, path):
     found = scenes.shared(scene)
     with tempfile.TemporaryDirectory(prefix="vorion-parts-") as folder:
         picture, report, resources = (os.path.join(folder, name) for name in ("a.pfm", "a.json", "resources"))
-        variables = {**variables_of(options, folder), "VORION_RESOURCES": resources}
+        variables = variables_of(f"{options} {resources_to(resources)}", folder)
         subprocess.run(["splat", "render", found.path, "--cameras", found.cameras, "--view", view, "--path", path, "--time",
                         "-o", picture, "--json", report], cwd=scenes.ROOT, env=variables, check=True, stdout=subprocess.DEVNULL)
         with open(report, encoding="utf-8") as file:

@@ -36,6 +36,11 @@ STACK_POINTER = 2
 LOADS, STORES = (0x03, 0x07), (0x23, 0x27)
 
 
+def resources_to(path):
+    """Options of vorion-clang that append what each function takes to a file, a line of JSON each."""
+    return f'-mllvm "-vorion-resources={path}"'
+
+
 def functions(path):
     """The last compilation of each function: of several group sizes, that of a launch."""
     if not os.path.exists(path):
@@ -81,7 +86,7 @@ def of_file(source, name, group, folder):
     with open(copy, "w", encoding="utf-8") as file:
         file.write(text)
     cache, resources = os.path.join(folder, "cache"), os.path.join(folder, "resources")
-    variables = {"VORION_RESOURCES": resources, "VORION_COMPILE_ALL": "1", "POCL_CACHE_DIR": cache}
+    variables = {"VORION_REMARKS": resources_to(resources), "VORION_COMPILE_ALL": "1", "POCL_CACHE_DIR": cache}
     done = subprocess.run([POCLCC, "-b", f'-I"{os.path.dirname(source)}"', "-o", os.path.join(folder, "binary"), copy],
                           env={**os.environ, **variables}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True, check=False, errors="replace")
@@ -106,7 +111,7 @@ def executed(elf, request, folder):
 def of_program(command, empty, folder):
     cache, capture, resources = (os.path.join(folder, each) for each in ("cache", "capture", "resources"))
     os.makedirs(capture)
-    run(*command, env={**os.environ, "VORION_CAPTURE": capture, "POCL_CACHE_DIR": cache, "VORION_RESOURCES": resources})
+    run(*command, env={**os.environ, "VORION_CAPTURE": capture, "POCL_CACHE_DIR": cache, "VORION_REMARKS": resources_to(resources)})
     found = functions(resources)
     seen = set()
     for request in sorted(glob.glob(os.path.join(capture, "*.json")),

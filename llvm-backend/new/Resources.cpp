@@ -11,11 +11,11 @@
 #include "llvm/IR/DebugInfoMetadata.h"
 #include "llvm/IR/Instructions.h"
 #include "llvm/IR/Module.h"
+#include "llvm/Support/CommandLine.h"
 #include "llvm/Support/FileSystem.h"
 #include "llvm/Support/JSON.h"
 #include "llvm/Support/raw_ostream.h"
 #include <cstddef>
-#include <cstdlib>
 #include <set>
 #include <vorion_abi.h>
 
@@ -23,11 +23,10 @@ using namespace llvm;
 
 namespace {
 
-/// Null if nobody wants to know.
-const char *fileName() {
-  const char *Name = std::getenv(vorion::ResourcesVariable);
-  return Name && *Name ? Name : nullptr;
-}
+/// Empty if nobody wants to know.
+cl::opt<std::string> FileName(
+    StringRef(vorion::ResourcesOption), cl::Hidden, cl::value_desc("file"),
+    cl::desc("Append what each function takes of the machine, as JSON"));
 
 /// Kind of the metadata of a function that has its divergent branches: strings
 /// of JSON.
@@ -239,7 +238,7 @@ private:
 
 } // namespace
 
-bool vorion::wantsResources() { return fileName(); }
+bool vorion::wantsResources() { return !FileName.empty(); }
 
 void vorion::noteDivergentBranch(const BranchInst &Branch, StringRef Kind,
                                  const DebugLoc &Place, const Reason &Why) {
@@ -271,7 +270,7 @@ void vorion::writeResources(const MachineFunction &MF) {
   std::string Line;
   raw_string_ostream(Line) << json::Value(Collector(MF).collect()) << "\n";
   std::error_code Problem;
-  raw_fd_ostream Out(fileName(), Problem, sys::fs::OF_Append);
+  raw_fd_ostream Out(FileName, Problem, sys::fs::OF_Append);
   if (!Problem) {
     Out << Line;
     Out.close();
@@ -279,7 +278,7 @@ void vorion::writeResources(const MachineFunction &MF) {
     Out.clear_error();
   }
   if (Problem)
-    MF.getFunction().getContext().emitError(Twine(fileName()) + ": " +
+    MF.getFunction().getContext().emitError(Twine(FileName) + ": " +
                                             Problem.message() +
                                             ", expected a file to write to");
 }

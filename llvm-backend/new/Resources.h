@@ -1,8 +1,7 @@
 //===- Resources.h - what a function takes of the machine -------*- C++ -*-===//
 //
-// For `vorion-clang --resources`, which names a file in the environment, for
-// all the processes that it starts: an object of JSON is appended to it for
-// each function that is emitted, one a line.
+// For `vorion-clang --resources`: an object of JSON is appended to the file of
+// the option -vorion-resources for each function that is emitted, one a line.
 //
 //===----------------------------------------------------------------------===//
 
@@ -16,8 +15,8 @@ class MachineFunction;
 
 namespace vorion {
 
-/// The variable that names the file.
-inline constexpr const char *ResourcesVariable = "VORION_RESOURCES";
+/// The option of LLVM that names the file.
+inline constexpr StringLiteral ResourcesOption = "vorion-resources";
 
 /// Whether anybody wants to know.
 bool wantsResources();

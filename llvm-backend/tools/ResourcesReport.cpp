@@ -19,7 +19,6 @@
 #include "llvm/Support/raw_ostream.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 
 namespace json = llvm::json;
@@ -188,8 +187,11 @@ int runWithResources(llvm::StringRef Program,
   if (!Folder)
     return reportError(Tool, Folder.error());
   const std::string Collected = Folder->path() + "/resources";
-  setenv(llvm::vorion::ResourcesVariable, Collected.c_str(), 1);
-  std::vector<llvm::StringRef> Words = {Program};
+  const std::string Option =
+      ("-" + llvm::vorion::ResourcesOption + "=" + Collected).str();
+  // The front end keeps lines for remarks, even of no pass; the code is the
+  // same.
+  std::vector<llvm::StringRef> Words = {Program, "-Rpass=^$", "-mllvm", Option};
   Words.insert(Words.end(), Arguments.begin(), Arguments.end());
   std::string Problem;
   const int Ended = llvm::sys::ExecuteAndWait(Program, Words, std::nullopt, {},

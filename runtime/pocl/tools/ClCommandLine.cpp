@@ -85,12 +85,6 @@ std::string wrongPattern(const std::string &Pattern) {
   return Text.data();
 }
 
-/// What can be handed on with blanks around it.
-bool isOneWord(const std::string &Option) {
-  return !Option.empty() &&
-         Option.find_first_of(" \t\n\v\f\r") == std::string::npos;
-}
-
 /// Refuses \p Option, with the one that was meant if there is one like it.
 Error unknownOption(const std::string &Option) {
   const std::string Language = "-cl-std=";
@@ -216,17 +210,17 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
         return usageError(
             std::string(Argument).append(": ").append(Wrong).append(
                 ", expected a regular expression"));
-      Line.ForMachine += Argument + " ";
+      Line.ForMachine.push_back(Argument);
     } else if (Argument == "-mllvm") {
       ++I;
-      if (I == Arguments.size() || !isOneWord(Arguments[I]))
-        return usageError("-mllvm: expected an option of LLVM without blanks");
-      Line.ForMachine += Argument + " " + Arguments[I] + " ";
-      Line.ToCheck.insert(Line.ToCheck.end(), {Argument, Arguments[I]});
+      if (I == Arguments.size())
+        return usageError("-mllvm: expected an option of LLVM");
+      for (const std::string &Word : {Argument, Arguments[I]}) {
+        Line.ForMachine.push_back(Word);
+        Line.ToCheck.push_back(Word);
+      }
     } else if (Argument.starts_with("-march=")) {
-      if (!isOneWord(Argument))
-        return usageError(Argument + ": has blanks, expected extensions");
-      Line.ForMachine += Argument + " ";
+      Line.ForMachine.push_back(Argument);
       Line.ToCheck.push_back(Argument);
     } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
       Line.Prelude += warningLine(Argument.substr(2));

@@ -17,10 +17,9 @@ struct ClCommandLine {
   /// Lines that stand before every input in OpenCL C: macros and warnings,
   /// which PoCL's options take without quotes or not at all.
   std::string Prelude;
-  /// -Rpass..., -mllvm and -march for the machine's compiler, with blanks
-  /// between.
-  std::string ForMachine;
-  /// Of ForMachine: what that compiler may not take, a word each.
+  /// -Rpass..., -mllvm and -march for the machine's compiler, a word each.
+  std::vector<std::string> ForMachine;
+  /// Of ForMachine: what that compiler may not take.
   std::vector<std::string> ToCheck;
   std::filesystem::path Output;
   /// -v: the programs that are run are printed.

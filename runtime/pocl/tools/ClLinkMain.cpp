@@ -23,9 +23,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -280,8 +282,12 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
     setenv("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", "1", 1);
   if (Line.Verbose)
     std::cerr << versionLine(Tool) << '\n';
-  if (!Line.ForMachine.empty())
-    setenv("VORION_REMARKS", Line.ForMachine.c_str(), 1);
+  if (!Line.ForMachine.empty()) {
+    std::ostringstream Words;
+    for (const std::string &Word : Line.ForMachine)
+      Words << std::quoted(Word) << ' ';
+    setenv("VORION_REMARKS", Words.str().c_str(), 1);
+  }
 
   std::vector<std::string> Link = {(Root / "bin/vorion-link").string(), "-o",
                                    Line.Output.string()};

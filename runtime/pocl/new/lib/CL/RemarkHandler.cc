@@ -4,13 +4,15 @@
 
 #include "vorion/support/Environment.h"
 
-#include <llvm/ADT/StringExtras.h>
 #include <llvm/IR/DiagnosticInfo.h>
 #include <llvm/IR/DiagnosticPrinter.h>
 #include <llvm/Support/Regex.h>
 
 #include <cstdio>
+#include <iomanip>
 #include <optional>
+#include <sstream>
+#include <string>
 
 using namespace llvm;
 
@@ -22,9 +24,10 @@ namespace {
 /// wrong with one.
 std::optional<Regex> wantedRemarks() {
   const char *Options = vorion::environmentVariable("VORION_REMARKS");
+  std::istringstream Words(Options ? Options : "");
   std::optional<Regex> Wanted;
-  for (StringRef Option : split(Options ? Options : "", ' '))
-    if (Option.consume_front("-Rpass-missed="))
+  for (std::string Word; Words >> std::quoted(Word);)
+    if (StringRef Option = Word; Option.consume_front("-Rpass-missed="))
       Wanted.emplace(Option);
   std::string Problem;
   if (Wanted && !Wanted->isValid(Problem))

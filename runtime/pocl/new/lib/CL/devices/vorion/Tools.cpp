@@ -15,6 +15,7 @@ extern "C" {
 #include <cstdio>
 #include <dlfcn.h>
 #include <filesystem>
+#include <iomanip>
 #include <set>
 #include <sstream>
 
@@ -38,16 +39,14 @@ constexpr size_t MaxToolOutput = 65536;
 /// Where remarks are, of which there may be several a line.
 constexpr size_t MaxRemarks = size_t{16} << 20;
 
-/// Options of vorion-clang, with blanks between: which remarks to print, and
-/// -mllvm (docs/backend.md).
+/// Options of vorion-clang, with blanks between and in quotes if they have
+/// some: which remarks to print, and -mllvm (docs/backend.md).
 const char *remarkOptions() { return environmentVariable("VORION_REMARKS"); }
 
-/// Remarks change the options of LLVM, which one process keeps for all calls;
-/// and a process takes from its environment where reports of resources go.
+/// Remarks change the options of LLVM, which one process keeps for all calls.
 bool mayAskServers() {
   const char *Wanted = environmentVariable("VORION_TOOL_SERVERS");
-  return !remarkOptions() && !environmentVariable("VORION_RESOURCES") &&
-         !(Wanted && std::string_view(Wanted) == "0");
+  return !remarkOptions() && !(Wanted && std::string_view(Wanted) == "0");
 }
 
 std::string failure(const std::string &Tool, int Code,
@@ -162,7 +161,7 @@ std::string Tools::compile(const std::string &Bitcode,
                                         "-o",
                                         Object};
   std::istringstream Remarks(remarkOptions() ? remarkOptions() : "");
-  for (std::string Option; Remarks >> Option;)
+  for (std::string Option; Remarks >> std::quoted(Option);)
     Arguments.push_back(Option);
   return run(std::move(Arguments));
 }
