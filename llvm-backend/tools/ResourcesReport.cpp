@@ -191,7 +191,9 @@ int runWithResources(llvm::StringRef Program,
       ("-" + llvm::vorion::ResourcesOption + "=" + Collected).str();
   // The front end keeps lines for remarks, even of no pass; the code is the
   // same.
-  std::vector<llvm::StringRef> Words = {Program, "-Rpass=^$", "-mllvm", Option};
+  std::vector<llvm::StringRef> Words = {
+      Program, "--start-no-unused-arguments", "-Rpass=^$", "-mllvm",
+      Option,  "--end-no-unused-arguments"};
   Words.insert(Words.end(), Arguments.begin(), Arguments.end());
   std::string Problem;
   const int Ended = llvm::sys::ExecuteAndWait(Program, Words, std::nullopt, {},

@@ -211,6 +211,9 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
             std::string(Argument).append(": ").append(Wrong).append(
                 ", expected a regular expression"));
       Line.ForMachine.push_back(Argument);
+    } else if (Argument == "--start-no-unused-arguments" ||
+               Argument == "--end-no-unused-arguments") {
+      // clang's. Here no option is unused.
     } else if (Argument == "-mllvm") {
       ++I;
       if (I == Arguments.size())
