@@ -23,10 +23,9 @@ import tempfile
 import time
 
 import command_line
+from generators import records
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(ROOT, "intrinsics", "generate"))
-from records import Records  # noqa: E402
 
 MIB = 1 << 20
 # Stated in docs/guest-limits.md: without the clock, and what is beside the budget's bytes with it.
@@ -86,7 +85,7 @@ PLAIN = "#define KERNEL __kernel __attribute__((reqd_work_group_size(16, 1, 1)))
 def csrs():
     """A program that writes all ones to every CSR that a program may write, starts a command behind each, and reads every CSR."""
     body = []
-    for csr in Records().of("Csr"):
+    for csr in records.Records().of("Csr"):
         if not csr.HasIntrinsic or csr.Name in ("mscratch", "vr_wait", "vr_grad_next", "vx_local_offset"):
             continue
         if csr.Rule.Name != "none":

@@ -7,16 +7,13 @@ Prints a Markdown table. Every idea draws the same bits as the picture of its ti
 """
 
 import argparse
-import os
 import sys
 import tempfile
 
 import clocked
 import command_line
 import timed_frame
-
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "intrinsics", "generate"))
-import clock
+from generators import clock
 
 # What the table calls it, settings of the machine, options of splat render.
 IDEAS = [

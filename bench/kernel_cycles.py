@@ -17,9 +17,7 @@ import tempfile
 
 import clocked
 import command_line
-
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "intrinsics", "generate"))
-import clock
+from generators import clock
 
 REASONS = {", ".join(parts): parts for parts in clock.groups_of(clock.stored()["cores"]).values()}
 

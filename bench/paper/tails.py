@@ -1,15 +1,11 @@
 """The pixel unit: throughput by the point at which lists are handed over."""
 
-import os
-import sys
 
 import machines
 import runs as r
 from runs import Run
 from writing import chart, mega, paragraph, table, terms
-
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "intrinsics", "generate"))
-import clock
+from generators import clock
 
 TITLE = "Pixel unit"
 MACHINE = machines.PROTOTYPES[0]

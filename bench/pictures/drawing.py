@@ -4,9 +4,7 @@ import argparse
 import os
 import sys
 from xml.sax.saxutils import escape
-
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "intrinsics", "generate"))
-import clock
+from generators import clock
 
 # By reason of cores, rasterizers and pixel units, in the order in which they are stacked.
 COLOURS = clock.colours()

@@ -11,10 +11,9 @@ such log.
 import os
 import sys
 
-import drawing
-
 sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import command_line
+import drawing
 
 WIDTH, CODE, LEFT, RIGHT = 984, 178, 430, 968  # pixels: the picture's; where instructions and cycles begin and end
 ROW = 17

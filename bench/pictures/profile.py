@@ -12,10 +12,9 @@ import os
 import re
 import sys
 
-import drawing
-
 sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import command_line
+import drawing
 
 WIDTH, CODE, BAR, BAR_END = 984, 178, 560, 920  # pixels: the picture's; where the text and the bars begin, and bars end
 ROW, LETTERS = 19, 56  # a row's height, and the letters of a line that have room

@@ -13,10 +13,9 @@ import json
 import os
 import sys
 
-import drawing
-
 sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import command_line
+import drawing
 
 CYCLES = "1 us = 1 cycle of "  # how a timeline says that it is in cycles
 COLUMNS = 168
