@@ -200,8 +200,8 @@ fi
 
 # --- patch -------------------------------------------------------------------
 
-ours=
-[ -z "$patches" ] || ours=$(find "$patches" -maxdepth 1 -name '*.patch' 2>/dev/null | LC_ALL=C sort)
+ours= # in the order of the series; scripts/patches.py makes it
+[ -z "$patches" ] || ours=$(sed "s,^,$patches/," "$patches/series")
 state=$( { echo "$origin"; [ -z "$ours" ] || cat $ours; } | sha256sum | cut -d' ' -f1)
 if [ "$(cat "$sources/$name.stamp" 2>/dev/null)" = "$state" ] && [ -d "$sources/$name" ]; then
   exit 0
