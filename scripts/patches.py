@@ -372,7 +372,7 @@ def verify(series, options):
         print(f"patches: error: {series.shown(name + '.patch')}: {problem}", file=sys.stderr)
     patches = series.patches()
     counts = ", ".join(f"{sum(patch.name.startswith(kind) for patch in patches)} in {kind}/" for kind in KINDS)
-    print(f"{series.package}: {counts}; {count} problems")
+    print(f"{series.package}: {counts}; {count} problem{'' if count == 1 else 's'}")
     return count == 0
 
 
