@@ -1,8 +1,9 @@
 #include "accuracy/Front.h"
 
+#include "study/ParetoFront.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -40,32 +41,24 @@ std::vector<Judged> judged(const std::vector<Candidate> &All, ErrorKind K,
 }
 
 std::vector<std::size_t> paretoFront(const std::vector<Judged> &All) {
+  std::map<double, double> Fastest; // of equally accurate ones
   std::vector<std::size_t> Order;
   for (std::size_t I = 0; I < All.size(); ++I)
-    if (All[I].Time)
+    if (const auto &Time = All[I].Time) {
       Order.push_back(I);
-  // Of equally accurate ones the fastest first, then the one that was named
-  // first.
-  std::ranges::sort(Order, {}, [&](std::size_t I) {
-    return std::tuple(-All[I].Merit, *All[I].Time, I);
-  });
-  std::vector<std::size_t> Front;
-  for (auto It = Order.begin(); It != Order.end();) {
-    const Judged &Fastest = All[*It];
-    const double Below = Front.empty()
-                             ? std::numeric_limits<double>::infinity()
-                             : *All[Front.back()].Time * (1 - SameTime);
-    std::optional<std::size_t> Best;
-    for (; It != Order.end() && All[*It].Merit == Fastest.Merit; ++It) {
-      const Judged &J = All[*It];
-      if (*J.Time < Below && *J.Time <= *Fastest.Time * (1 + SameTime) &&
-          (!Best || J.Changes < All[*Best].Changes))
-        Best = *It;
+      const auto [At, IsNew] = Fastest.try_emplace(All[I].Merit, *Time);
+      At->second = std::min(At->second, *Time);
     }
-    if (Best)
-      Front.push_back(*Best);
-  }
-  return Front;
+  // Of equally accurate ones those that are as fast as the fastest first, and
+  // of these the one that changes least; then the one that was named first.
+  std::ranges::sort(Order, {}, [&](std::size_t I) {
+    const Judged &J = All[I];
+    const bool IsSlower = *J.Time > Fastest[J.Merit] * (1 + SameTime);
+    return std::tuple(-J.Merit, IsSlower, IsSlower ? 0 : J.Changes, *J.Time, I);
+  });
+  return paretoFront(Order, [&All](std::size_t A, std::size_t B) {
+    return *All[B].Time >= *All[A].Time * (1 - SameTime);
+  });
 }
 
 std::vector<std::size_t> paretoFront(const std::vector<Candidate> &All,

@@ -3,7 +3,7 @@
 #include "accuracy/Rtl.h"
 #include "device/Stage.h"
 #include "page/VerdictPage.h"
-#include "sweep/Process.h"
+#include "study/Process.h"
 
 #include <algorithm>
 #include <array>
@@ -65,24 +65,18 @@ Frame frameOf(const Json &Report, double Seconds) {
 
 Expected<Frame> draw(const SweepPlan &P, const Camera &View, bool Clocked) {
   const std::string Base = P.Folder + "/work/host";
-  std::vector<std::string> Words{
-      "render",  P.ScenePath, "--cameras",   P.CameraFile, "--view",
-      View.Name, "-o",        Base + ".pfm", "--json",     Base + ".json"};
-  Words.insert(Words.end(), P.CommonArguments.begin(), P.CommonArguments.end());
+  const std::string Picture = Base + ".pfm";
+  std::vector<std::string> Words = renderWords(P, View.Name, Picture);
   if (Clocked)
     Words.emplace_back("--time");
   DeviceOptions Machine = P.Machine;
   if (!Clocked)
     Machine.set("VORION_TIME", "off");
-  const auto Ended = runSplat(Words, Machine, Base + ".log");
-  if (!Ended)
-    return Ended.error();
-  const auto Report = readJson(Base + ".json");
-  if (!Report)
-    return Report.error();
-  for (const char *Ending : {".pfm", ".json", ".log"})
-    std::filesystem::remove(Base + Ending);
-  return frameOf(*Report, Ended->ProcessorSeconds);
+  const auto Done = runForReport(std::move(Words), Machine, Base);
+  if (!Done)
+    return Done.error();
+  std::filesystem::remove(Picture);
+  return frameOf(Done->Report, Done->ProcessorSeconds);
 }
 
 /// The cycles that \p Of would take if each of its stages took as many for its

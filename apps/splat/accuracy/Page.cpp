@@ -3,7 +3,7 @@
 #include "device/ClockedMachine.h"
 #include "io/ReportHead.h"
 #include "page/Page.h"
-#include "sweep/Origin.h"
+#include "study/Provenance.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -61,7 +61,7 @@ static Json summaryOf(const std::vector<Candidate> &All) {
           {"free", sameTimeAs(All.front(), All, TimeAxis::Cycles)}};
 }
 
-Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
+Expected<std::string> pageOf(const SweepPlan &P, PointStore &Kept,
                              const PageHead &Head,
                              const std::vector<Setting> &Settings) {
   Json Views = Json::array(), Points = Json::array(), On;

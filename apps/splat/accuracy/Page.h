@@ -28,7 +28,7 @@ struct PageHead {
 
 /// The page of \p Settings, the default first, on all views, all of which are
 /// measured.
-Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
+Expected<std::string> pageOf(const SweepPlan &P, PointStore &Kept,
                              const PageHead &Head,
                              const std::vector<Setting> &Settings);
 

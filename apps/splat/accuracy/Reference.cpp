@@ -6,7 +6,9 @@
 #include "reference/Render.h"
 
 #include <fmt/format.h>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -17,6 +19,23 @@ std::string referenceFile(const SweepPlan &P, const Point &Of) {
                      asFileName(Of.View->Name),
                      Of.Chosen.value(KnobId::Support));
 }
+
+/// The scene, once a reference needs it.
+struct ReadScene {
+  std::optional<reference::Gaussians<double>> Scene;
+  Drawing DrawnAs;
+
+  Expected<Success> load(const SweepPlan &P) {
+    if (Scene)
+      return Success{};
+    const auto File = P.Load();
+    if (!File)
+      return File.error();
+    Scene = toReference<double>(File->Gaussians);
+    DrawnAs = File->DrawnAs;
+    return Success{};
+  }
+};
 
 Expected<Success> writeReference(const std::string &Path,
                                  const reference::Gaussians<double> &Scene,
@@ -36,32 +55,22 @@ Expected<Success> writeReference(const std::string &Path,
 
 } // namespace
 
-Expected<Success>
-makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
-               const std::function<void(std::string_view)> &Log) {
-  std::optional<reference::Gaussians<double>> Scene;
-  Drawing DrawnAs;
-  for (const Point &Of : Points) {
+std::function<Expected<Success>(const Point &)>
+referenceMaker(const SweepPlan &P, std::function<void(std::string_view)> Log) {
+  return [&P, Log = std::move(Log),
+          Read = std::make_shared<ReadScene>()](const Point &Of) {
     const std::string Path = referenceFile(P, Of);
     const Support Reach = Of.Chosen.support();
-    Origin From = originOf(P, Of);
+    Provenance From = provenanceOf(P, Of);
     From["support"] = name(Reach);
-    const auto Make = [&]() -> Expected<Success> {
-      if (!Scene) {
-        const auto File = P.Load();
-        if (!File)
-          return File.error();
-        Scene = toReference<double>(File->Gaussians);
-        DrawnAs = File->DrawnAs;
-      }
+    return makeOnce({Path}, From, [&]() -> Expected<Success> {
+      if (auto Loaded = Read->load(P); !Loaded)
+        return Loaded;
       Log(fmt::format("reference of {}, support {}", Of.View->Name,
                       name(Reach)));
-      return writeReference(Path, *Scene, *Of.View, Reach, DrawnAs);
-    };
-    if (auto Made = makeOnce({Path}, From, Make); !Made)
-      return Made;
-  }
-  return Success{};
+      return writeReference(Path, *Read->Scene, *Of.View, Reach, Read->DrawnAs);
+    });
+  };
 }
 
 Expected<ExactImage> referenceOf(const SweepPlan &P, const Point &Of) {

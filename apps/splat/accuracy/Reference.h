@@ -6,14 +6,18 @@
 
 #include "io/Image.h"
 
+#include <functional>
+#include <string_view>
+
 namespace vorion::splat {
 
-/// Renders those of \p Points that are not there, made from the same.
-Expected<Success>
-makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
-               const std::function<void(std::string_view)> &Log);
+/// Renders the picture for a point, unless it is there, made from the same. The
+/// scene is read once for all points. \p P must live as long; \p Log gets a
+/// line for each picture.
+std::function<Expected<Success>(const Point &)>
+referenceMaker(const SweepPlan &P, std::function<void(std::string_view)> Log);
 
-/// The picture for \p Of, which makeReferences has made.
+/// The picture for \p Of, which referenceMaker() has made.
 Expected<ExactImage> referenceOf(const SweepPlan &P, const Point &Of);
 
 } // namespace vorion::splat

@@ -1,7 +1,7 @@
 #include "accuracy/Rtl.h"
 
 #include "picture/Options.h"
-#include "sweep/Process.h"
+#include "study/Process.h"
 #include "vorion/support/Environment.h"
 
 #include <cstdio>
@@ -103,10 +103,9 @@ Expected<RtlRun> runRtl(const SweepPlan &P, const Camera &View,
     return Built.error();
 
   Log("the rasterizer's RTL: writing tiles");
-  std::vector<std::string> Words{
-      "render",  P.ScenePath, "--cameras",         P.CameraFile, "--view",
-      View.Name, "-o",        File("picture.pfm"), "--exp",      "table"};
-  Words.insert(Words.end(), P.CommonArguments.begin(), P.CommonArguments.end());
+  std::vector<std::string> Words =
+      renderWords(P, View.Name, File("picture.pfm"));
+  Words.insert(Words.end(), {"--exp", "table"});
   DeviceOptions Machine = P.Machine;
   Machine.set("VORION_TIME", "off");
   Machine.set("VORION_PLUGINS", Found->Plugin);

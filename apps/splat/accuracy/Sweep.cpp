@@ -5,8 +5,7 @@
 #include "device/ClockedMachine.h"
 #include "io/Inside.h"
 #include "io/Metrics.h"
-#include "sweep/Points.h"
-#include "sweep/Process.h"
+#include "study/Process.h"
 #include "vorion/support/JsonShape.h"
 
 #include <algorithm>
@@ -47,25 +46,18 @@ private:
 };
 
 Expected<Run> PointMeasurement::run(const std::vector<std::string> &Arguments) {
-  const std::string PictureFile = Base + ".npz", ReportFile = Base + ".json";
-  std::vector<std::string> Words{
-      "render", Plan.ScenePath,    "--cameras", Plan.CameraFile,
-      "--view", Target.View->Name, "-o",        PictureFile,
-      "--json", ReportFile};
-  Words.insert(Words.end(), Plan.CommonArguments.begin(),
-               Plan.CommonArguments.end());
+  const std::string PictureFile = Base + ".npz";
+  std::vector<std::string> Words =
+      renderWords(Plan, Target.View->Name, PictureFile);
   Words.insert(Words.end(), Arguments.begin(), Arguments.end());
-  if (auto Done = runSplat(Words, Plan.Machine, Base + ".log"); !Done)
+  auto Done = runForReport(std::move(Words), Plan.Machine, Base);
+  if (!Done)
     return Done.error();
-  auto Report = readJson(ReportFile);
-  if (!Report)
-    return Report.error();
   auto Picture = readImage(PictureFile);
   if (!Picture)
     return Picture.error();
-  for (const char *Ending : {".npz", ".json", ".log"})
-    std::filesystem::remove(Base + Ending);
-  return Run{std::move(*Report), std::move(*Picture)};
+  std::filesystem::remove(PictureFile);
+  return Run{std::move(Done->Report), std::move(*Picture)};
 }
 
 Expected<Json> PointMeasurement::errors(const ExactImage &Picture,
@@ -228,6 +220,13 @@ Errors maxOf(const Errors &A, const Errors &B) {
   return Worse;
 }
 
+std::string lineOf(const Json &Measured) {
+  return fmt::format("{:.1f} dB, {:.0f} cycles; {}",
+                     valueOf(Measured["errors"]["psnr_db"]),
+                     Measured["times"]["cycles"].get<double>(),
+                     Measured[ClockedMachineKey].get<std::string>());
+}
+
 /// Adds the measurement \p M of a view to \p C; \p IsFirst: of the first.
 void addView(Candidate &C, const Json &M, bool IsFirst) {
   const Errors Own = errorsOf(M["errors"]);
@@ -280,57 +279,48 @@ Expected<Point> pointNamed(const SweepPlan &P, const std::string &Name) {
                ExitCode::Usage};
 }
 
-Origin originOf(const SweepPlan &P, const Point &Of) {
-  Origin From = P.From;
+Provenance provenanceOf(const SweepPlan &P, const Point &Of) {
+  Provenance From = P.From;
   From["view"] = hashView(*Of.View);
   return From;
 }
 
-KeptPoints keptPoints(const SweepPlan &P,
-                      std::function<void(std::string_view)> Log) {
+std::vector<StudyPoint>
+studyPoints(const SweepPlan &P, const std::vector<Point> &Points,
+            const std::function<void(std::string_view)> &Log) {
+  const auto MakeReference = referenceMaker(P, Log);
+  std::vector<StudyPoint> All;
+  All.reserve(Points.size());
+  for (const Point &Of : Points)
+    All.push_back({Of.name(), provenanceOf(P, Of),
+                   [MakeReference, Of] { return MakeReference(Of); },
+                   [&P, Of] { return PointMeasurement(P, Of).measure(); },
+                   lineOf});
+  return All;
+}
+
+PointStore storeOf(const SweepPlan &P,
+                   std::function<void(std::string_view)> Log) {
   return {P.Folder, isMeasurement, std::move(Log)};
 }
 
-std::vector<Point> missing(const SweepPlan &P, KeptPoints &Kept,
-                           const std::vector<Point> &Of) {
-  std::vector<Point> Left;
-  for (const Point &One : Of)
-    if (!Kept.find(One.name(), originOf(P, One)))
-      Left.push_back(One);
-  return Left;
+std::vector<std::string> renderWords(const SweepPlan &P,
+                                     const std::string &View,
+                                     const std::string &Output) {
+  std::vector<std::string> Words{"render",     P.ScenePath, "--cameras",
+                                 P.CameraFile, "--view",    View,
+                                 "-o",         Output};
+  Words.insert(Words.end(), P.CommonArguments.begin(), P.CommonArguments.end());
+  return Words;
 }
 
-Expected<Json> readPoint(const SweepPlan &P, KeptPoints &Kept,
+Expected<Json> readPoint(const SweepPlan &P, PointStore &Kept,
                          const Point &Of) {
-  if (const Json *Found = Kept.find(Of.name(), originOf(P, Of)))
-    return *Found;
-  return Error{P.Folder,
-               fmt::format("point {} is missing, expected it to be measured",
-                           Of.name())};
-}
-
-Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
-                          const std::vector<Point> &Points,
-                          const std::function<void(std::string_view)> &Log) {
-  if (auto Made = makeReferences(P, Points, Log); !Made)
-    return Made;
-  std::vector<Measuring> Wanted;
-  Wanted.reserve(Points.size());
-  for (const Point &Of : Points)
-    Wanted.push_back({Of.name(), originOf(P, Of),
-                      [&P, &Of] { return PointMeasurement(P, Of).measure(); },
-                      [](const Json &M) {
-                        return fmt::format(
-                            "{:.1f} dB, {:.0f} cycles; {}",
-                            valueOf(M["errors"]["psnr_db"]),
-                            M["times"]["cycles"].get<double>(),
-                            M[ClockedMachineKey].get<std::string>());
-                      }});
-  return measureAll(Kept, Wanted, P.Jobs, Log);
+  return Kept.get(Of.name(), provenanceOf(P, Of));
 }
 
 Expected<std::vector<Candidate>>
-candidates(const SweepPlan &P, KeptPoints &Kept,
+candidates(const SweepPlan &P, PointStore &Kept,
            const std::vector<Setting> &Settings,
            const std::vector<const Camera *> &Views) {
   std::vector<Candidate> All;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "accuracy/Front.h"
-#include "sweep/Points.h"
+#include "study/Study.h"
 
 #include "device/DeviceOptions.h"
 #include "io/Cameras.h"
@@ -25,9 +25,8 @@ struct SweepPlan {
   /// The chip's joules are a cost, and the machine must have them; else they
   /// are only measured where it has.
   bool Energy = false;
-  unsigned Jobs = 1;         ///< measured at the same time
   unsigned ThumbWidth = 240; ///< of the page's pictures, px
-  Origin From;               ///< what all points are made from
+  Provenance From;           ///< what all points are made from
   std::function<Expected<SceneFile>()> Load;
 };
 
@@ -48,30 +47,30 @@ std::vector<Point> pointsOf(const SweepPlan &P,
 Expected<Point> pointNamed(const SweepPlan &P, const std::string &Name);
 
 /// What the measurement of a point is made from.
-Origin originOf(const SweepPlan &P, const Point &Of);
+Provenance provenanceOf(const SweepPlan &P, const Point &Of);
+
+/// \p Points as points of a study. They read \p P while they are measured.
+std::vector<StudyPoint>
+studyPoints(const SweepPlan &P, const std::vector<Point> &Points,
+            const std::function<void(std::string_view)> &Log);
 
 /// The measurements that \p P's folder has; \p Log is told of each file that
 /// is not used.
-KeptPoints keptPoints(const SweepPlan &P,
-                      std::function<void(std::string_view)> Log);
+PointStore storeOf(const SweepPlan &P,
+                   std::function<void(std::string_view)> Log);
 
-/// Those of \p Of that are to be measured.
-std::vector<Point> missing(const SweepPlan &P, KeptPoints &Kept,
-                           const std::vector<Point> &Of);
-
-/// Measures \p Points and keeps them; \p Log gets a line for each one that is
-/// done.
-Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
-                          const std::vector<Point> &Points,
-                          const std::function<void(std::string_view)> &Log);
+/// Of `splat render`: a view of \p P's scene into the file \p Output.
+std::vector<std::string> renderWords(const SweepPlan &P,
+                                     const std::string &View,
+                                     const std::string &Output);
 
 /// The measurement of a point that is there; an Error of one that is not.
-Expected<nlohmann::ordered_json> readPoint(const SweepPlan &P, KeptPoints &Kept,
+Expected<nlohmann::ordered_json> readPoint(const SweepPlan &P, PointStore &Kept,
                                            const Point &Of);
 
 /// \p Settings over \p Views, all of which are measured.
 Expected<std::vector<Candidate>>
-candidates(const SweepPlan &P, KeptPoints &Kept,
+candidates(const SweepPlan &P, PointStore &Kept,
            const std::vector<Setting> &Settings,
            const std::vector<const Camera *> &Views);
 

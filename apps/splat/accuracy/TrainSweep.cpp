@@ -7,8 +7,7 @@
 #include "io/Inside.h"
 #include "io/Mean.h"
 #include "scene/SceneFile.h"
-#include "sweep/Points.h"
-#include "sweep/Process.h"
+#include "study/Process.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
 #include "vorion/support/Printable.h"
@@ -162,47 +161,45 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
   Words.insert(Words.end(),
                {"--seed", std::to_string(*Of.Seed), "--time", "--time-every",
                 std::to_string(P.TimeEvery), "--score-every",
-                std::to_string(P.ScoreEvery), "--json", Base + ".json",
-                "--checkpoint", "/dev/null"});
+                std::to_string(P.ScoreEvery), "--checkpoint", "/dev/null"});
   if (P.Energy)
     Words.emplace_back("--energy");
-  if (auto Done = runSplat(Words, P.Machine, Base + ".log"); !Done)
+  auto Done = runForReport(std::move(Words), P.Machine, Base);
+  if (!Done)
     return Done.error();
-  auto Report = readJson(Base + ".json");
-  if (!Report)
-    return Report;
-  for (const char *Ending : {".ply", ".json", ".log"})
+  for (const char *Ending : {".ply", ".cameras.json"})
     std::filesystem::remove(Base + Ending);
-  if ((*Report)["timed"].empty())
+  Json &Report = Done->Report;
+  if (Report["timed"].empty())
     return Error{
         Of.name(),
         "no iteration was timed, expected the clock on in all of a run",
         ExitCode::Usage};
-  Json Curve = curveOf(*Report, P.TimeEvery);
+  Json Curve = curveOf(Report, P.TimeEvery);
   double Cycles = 0, Joules = 0;
-  for (const Json &T : (*Report)["timed"]) {
+  for (const Json &T : Report["timed"]) {
     Cycles += T["time"]["sum"]["cycles"].get<double>();
     if (P.Energy)
       Joules += T["energy"]["chip_joules"]["value"].get<double>();
   }
-  const Json &First = (*Report)["timed"].front()["time"]["sum"];
+  const Json &First = Report["timed"].front()["time"]["sum"];
   const Json Areas = First["lane_areas"]["reciprocal"];
   std::string On = clockedMachine(First);
-  const std::size_t Samples = (*Report)["timed"].size();
+  const std::size_t Samples = Report["timed"].size();
   // Seconds of the host, of one run, are no figure.
   for (const char *Key : {"losses", "scores", "seconds", "timed"})
-    Report->erase(Key);
+    Report.erase(Key);
   return Json{
       {"setting", Of.Chosen.name()},
       {"seed", Of.at()},
       {ClockedMachineKey, std::move(On)},
-      {"psnr8_db", (*Report)["psnr8_db"]},
+      {"psnr8_db", Report["psnr8_db"]},
       {"timed", Samples},
       {"cycles", Cycles / double(Samples)},
       {"chip_joules", P.Energy ? Json(Joules / double(Samples)) : Json()},
       {"reciprocal_um2", Areas},
       {"curve", std::move(Curve)},
-      {"made_by", std::move(*Report)}};
+      {"made_by", std::move(Report)}};
 }
 
 /// Whether \p J has what trainResults() and the page take.
@@ -267,8 +264,8 @@ std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P) {
   return All;
 }
 
-Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C) {
-  auto From = commonOrigin(P.Machine);
+Expected<Provenance> provenanceOf(const TrainSweepPlan &P, const Capture &C) {
+  auto From = commonProvenance(P.Machine);
   if (!From)
     return From;
   auto Hash = hashCapture(C);
@@ -286,41 +283,31 @@ Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C) {
   return From;
 }
 
-KeptPoints keptPoints(const TrainSweepPlan &P,
-                      std::function<void(std::string_view)> Log) {
-  return {P.Folder, isMeasurement, std::move(Log)};
-}
-
-std::vector<TrainPoint> missing(const TrainSweepPlan &P, KeptPoints &Kept,
-                                const std::vector<TrainPoint> &Of) {
-  std::vector<TrainPoint> Left;
-  for (const TrainPoint &One : Of)
-    if (!Kept.find(One.name(), P.From))
-      Left.push_back(One);
-  return Left;
-}
-
-Expected<Success> measure(const TrainSweepPlan &P, KeptPoints &Kept,
-                          const std::vector<TrainPoint> &Points,
-                          const std::function<void(std::string_view)> &Log) {
-  std::vector<Measuring> Wanted;
-  bool Gradients = false;
+std::vector<StudyPoint>
+studyPoints(const TrainSweepPlan &P, const std::vector<TrainPoint> &Points,
+            const std::function<void(std::string_view)> &Log) {
+  std::vector<StudyPoint> All;
+  All.reserve(Points.size());
   for (const TrainPoint &Of : Points) {
     const std::string Base =
         fmt::format("{}/work/{}", P.Folder, asFileName(Of.name()));
-    const bool OfGradients = !Of.Seed;
-    Gradients |= OfGradients;
-    Wanted.push_back({Of.name(), P.From,
-                      [&P, Of, Base, OfGradients] {
-                        return OfGradients ? measureGradients(P, Of, Base)
-                                           : measureRun(P, Of, Base);
-                      },
-                      lineOf});
+    StudyPoint &One = All.emplace_back();
+    One.Name = Of.name();
+    One.From = P.From;
+    One.Describe = lineOf;
+    if (Of.Seed) {
+      One.Measure = [&P, Of, Base] { return measureRun(P, Of, Base); };
+      continue;
+    }
+    One.Prepare = [&P, Log] { return makeReference(P, Log); };
+    One.Measure = [&P, Of, Base] { return measureGradients(P, Of, Base); };
   }
-  if (Gradients)
-    if (auto Made = makeReference(P, Log); !Made)
-      return Made;
-  return measureAll(Kept, Wanted, P.Jobs, Log);
+  return All;
+}
+
+PointStore storeOf(const TrainSweepPlan &P,
+                   std::function<void(std::string_view)> Log) {
+  return {P.Folder, isMeasurement, std::move(Log)};
 }
 
 namespace {
@@ -358,23 +345,20 @@ double bestOf(const Json &Curve) {
 
 } // namespace
 
-Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
+Expected<Json> trainResults(const TrainSweepPlan &P, PointStore &Kept) {
   Json Points = Json::array(), On;
   double Reached = std::numeric_limits<double>::infinity();
   const std::vector<TrainPoint> All = trainPoints(P);
   for (const TrainPoint &Of : All) {
-    const Json *One = Kept.find(Of.name(), P.From);
+    auto One = Kept.get(Of.name(), P.From);
     if (!One)
-      return Error{
-          P.Folder,
-          fmt::format("point {} is missing, expected it to be measured",
-                      Of.name())};
+      return One.error();
     if (Of.Seed) {
       Reached = std::min(Reached, bestOf((*One)["curve"]));
       // No setting changes the machine.
       On = (*One)[ClockedMachineKey];
     }
-    Points.push_back(*One);
+    Points.push_back(std::move(*One));
   }
   Json Settings = Json::array();
   for (const Setting &S : singleChanges(trainKnobs())) {

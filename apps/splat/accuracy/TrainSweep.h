@@ -2,7 +2,7 @@
 #pragma once
 
 #include "accuracy/Setting.h"
-#include "sweep/Points.h"
+#include "study/Study.h"
 
 #include "device/DeviceOptions.h"
 
@@ -28,9 +28,8 @@ struct TrainSweepPlan {
   unsigned Iterations = 500;
   unsigned Seeds = 3; ///< 0, 1, ...
   unsigned ScoreEvery = 25, TimeEvery = 25;
-  unsigned Jobs = 1;   ///< measured at the same time
   bool Energy = false; ///< the chip's joules, too
-  Origin From;         ///< what all points are made from: originOf()
+  Provenance From;     ///< what all points are made from: provenanceOf()
 };
 
 /// A training run with a setting and a seed, or what a setting makes of the
@@ -48,28 +47,23 @@ struct TrainPoint {
 std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P);
 
 /// What all points of \p P, whose capture is \p C, are made from.
-Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C);
+Expected<Provenance> provenanceOf(const TrainSweepPlan &P, const Capture &C);
+
+/// \p Points as points of a study. They read \p P while they are measured.
+std::vector<StudyPoint>
+studyPoints(const TrainSweepPlan &P, const std::vector<TrainPoint> &Points,
+            const std::function<void(std::string_view)> &Log);
 
 /// The measurements that \p P's folder has; \p Log is told of each file that
 /// is not used.
-KeptPoints keptPoints(const TrainSweepPlan &P,
-                      std::function<void(std::string_view)> Log);
-
-/// Those of \p Of that are to be measured.
-std::vector<TrainPoint> missing(const TrainSweepPlan &P, KeptPoints &Kept,
-                                const std::vector<TrainPoint> &Of);
-
-/// Measures \p Points and keeps them; \p Log gets a line for each one that is
-/// done.
-Expected<Success> measure(const TrainSweepPlan &P, KeptPoints &Kept,
-                          const std::vector<TrainPoint> &Points,
-                          const std::function<void(std::string_view)> &Log);
+PointStore storeOf(const TrainSweepPlan &P,
+                   std::function<void(std::string_view)> Log);
 
 /// All points, which are measured, and what they say together: of each setting
 /// gradient error, area, cycles, PSNR, and machine-seconds until a PSNR that
 /// every run reaches.
 Expected<nlohmann::ordered_json> trainResults(const TrainSweepPlan &P,
-                                              KeptPoints &Kept);
+                                              PointStore &Kept);
 
 /// These as a Markdown table.
 std::string trainTable(const nlohmann::ordered_json &Results);

@@ -7,11 +7,11 @@
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
-#include "commands/SweepArguments.h"
+#include "commands/StudyArguments.h"
 #include "commands/Usage.h"
 #include "device/ClockedMachine.h"
 #include "io/ReportHead.h"
-#include "sweep/Points.h"
+#include "study/Study.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -39,7 +39,7 @@ using Json = nlohmann::ordered_json;
 struct AccuracyArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
-  SweepOptions Sweep;
+  StudyOptions Study;
   std::string AtLeast = "50dB";
   std::vector<std::string> Check, Knobs;
   unsigned Products = 64, ThumbWidth = 240;
@@ -69,7 +69,7 @@ bool hasOwnCameras(const AccuracyArguments &A) {
 
 /// Where they are kept then, for the processes that draw.
 std::string ownCameras(const AccuracyArguments &A) {
-  return A.Sweep.Folder + "/cameras.json";
+  return A.Study.Folder + "/cameras.json";
 }
 
 Expected<SweepPlan> planOf(const AccuracyArguments &A,
@@ -77,10 +77,10 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   SweepPlan P;
   P.Machine = Machine;
   P.ScenePath = A.Scene.Path;
-  P.Folder = A.Sweep.Folder;
+  P.Folder = A.Study.Folder;
   P.CommonArguments = wordsOf(A.Scene);
   P.CameraFile = hasOwnCameras(A) ? ownCameras(A) : A.Cameras.File;
-  auto Views = sweptViews(A.Cameras, A.Scene, P.CameraFile);
+  auto Views = studyViews(A.Cameras, A.Scene, P.CameraFile);
   if (!Views)
     return Views.error();
   P.Views = std::move(*Views);
@@ -90,10 +90,9 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   P.Knobs = std::move(*Knobs);
   P.Cores = !A.NoCores;
   P.Energy = A.Energy;
-  P.Jobs = A.Sweep.Jobs;
   P.ThumbWidth = A.ThumbWidth;
   P.Load = [&A] { return loadScene(A.Scene); };
-  auto From = sweptOrigin(A.Scene, Machine);
+  auto From = sceneProvenance(A.Scene, Machine);
   if (!From)
     return From.error();
   P.From = std::move(*From);
@@ -135,11 +134,13 @@ Expected<Split> splitViews(const SweepPlan &P,
 /// The settings so far: single knobs, and once they are all measured the
 /// product of the fronts.
 Expected<std::vector<Setting>> currentSettings(const SweepPlan &P,
-                                               KeptPoints &Kept, const Split &V,
+                                               PointStore &Kept, const Split &V,
                                                double FloorDb,
                                                std::size_t Products) {
   std::vector<Setting> All = singleChanges(P.Knobs);
-  if (!missing(P, Kept, pointsOf(P, All)).empty() || Products == 0)
+  const auto Missing =
+      missing(Kept, studyPoints(P, pointsOf(P, All), logStudy));
+  if (!Missing.empty() || Products == 0)
     return All;
   const auto Measured = candidates(P, Kept, All, V.Choose);
   if (!Measured)
@@ -169,7 +170,7 @@ std::vector<const Camera *> pointersTo(const std::vector<Camera> &Views) {
   return All;
 }
 
-Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
+Expected<std::string> recommendation(const SweepPlan &P, PointStore &Kept,
                                      const Split &V,
                                      const std::vector<Setting> &All,
                                      double FloorDb) {
@@ -217,7 +218,7 @@ Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
 }
 
 /// The sentence that answers, by all views.
-Expected<std::string> verdict(SweepPlan P, KeptPoints &Kept,
+Expected<std::string> verdict(SweepPlan P, PointStore &Kept,
                               const std::vector<Setting> &All, double FloorDb) {
   P.Energy = true; // it costs, whether or not it is an axis
   const auto Measured = candidates(P, Kept, All, pointersTo(P.Views));
@@ -248,7 +249,7 @@ std::vector<Camera> hostViews(const AccuracyArguments &A, const SweepPlan &P) {
 }
 
 /// All measurements without pictures, and the page.
-Expected<Success> writeResults(const SweepPlan &P, KeptPoints &Kept,
+Expected<Success> writeResults(const SweepPlan &P, PointStore &Kept,
                                const PageHead &Head,
                                const std::vector<Setting> &All) {
   Json Points = Json::array();
@@ -274,13 +275,69 @@ Expected<Success> writeResults(const SweepPlan &P, KeptPoints &Kept,
               : Expected<Success>(Page.error());
 }
 
+/// Measures the host's time, writes the results and prints the answer.
+Expected<Success> finish(const AccuracyArguments &A, const SweepPlan &P,
+                         PointStore &Kept, const Split &V, double FloorDb) {
+  const auto All = currentSettings(P, Kept, V, FloorDb, A.Products);
+  if (!All)
+    return All.error();
+  auto Answer = verdict(P, Kept, *All, FloorDb);
+  if (!Answer)
+    return Answer.error();
+  const std::vector<Camera> OnHost = hostViews(A, P);
+  Expected<std::vector<HostTime>> Host = std::vector<HostTime>();
+  if (!A.NoHost)
+    Host = measureHostTime(P, OnHost, logStudy);
+  if (!Host)
+    return Host.error();
+  const PageHead Head{
+      *Answer, *Host,
+      fmt::format("{}, views {} (chosen on {}), {}x{}, rules inria, errors "
+                  "against the fp64 reference of the same support",
+                  P.ScenePath, names(pointersTo(P.Views)), names(V.Choose),
+                  P.Views.front().Width, P.Views.front().Height),
+      FloorDb, V.Choose};
+  if (auto Written = writeResults(P, Kept, Head, *All); !Written)
+    return Written;
+  const auto Text = recommendation(P, Kept, V, *All, FloorDb);
+  if (!Text)
+    return Text.error();
+  printOut("{}\n\n{}", *Answer, *Text);
+  if (!A.NoHost)
+    printOut("\n{}", hostTimeText(*Host, OnHost));
+  printOut("{}/index.html\n", escaped(P.Folder));
+  return Success{};
+}
+
+/// All points so far: what the first round finds out says what the second
+/// measures.
+Expected<std::vector<StudyPoint>> roundOf(const AccuracyArguments &A,
+                                          const SweepPlan &P, PointStore &Kept,
+                                          const Split &V, double FloorDb) {
+  const auto All = currentSettings(P, Kept, V, FloorDb, A.Products);
+  if (!All)
+    return All.error();
+  return studyPoints(P, pointsOf(P, *All), logStudy);
+}
+
+Expected<std::vector<StudyPoint>> named(const SweepPlan &P,
+                                        const std::vector<std::string> &Names) {
+  std::vector<Point> Wanted;
+  for (const std::string &Name : Names) {
+    auto One = pointNamed(P, Name);
+    if (!One)
+      return One.error();
+    Wanted.push_back(std::move(*One));
+  }
+  return studyPoints(P, Wanted, logStudy);
+}
+
 Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   if (!A.Train.Capture.empty()) {
-    A.Train.Folder = A.Sweep.Folder;
-    A.Train.Jobs = A.Sweep.Jobs;
+    A.Train.Folder = A.Study.Folder;
     A.Train.Energy = A.Energy;
     A.Train.Machine = Machine;
-    return measureTraining(A.Train, A.Sweep.List, A.Sweep.Only, sayOfSweep);
+    return measureTraining(A.Train, A.Study);
   }
   if (A.Scene.Path.empty())
     return usage("no input, expected a scene or --train CAPTURE");
@@ -293,74 +350,23 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   const auto V = splitViews(*P, A.Check);
   if (!V)
     return V.error();
-  if (!A.Sweep.List)
-    if (auto Made = makeFolders(A.Sweep.Folder); !Made)
-      return Made.error();
-  if (!A.Sweep.List && hasOwnCameras(A))
-    if (auto Written = writeCameras(ownCameras(A), P->Views); !Written)
-      return Written;
-  KeptPoints Kept = keptPoints(*P, sayOfSweep);
-  if (!A.Sweep.Only.empty()) {
-    std::vector<Point> Wanted;
-    for (const std::string &Name : A.Sweep.Only) {
-      auto One = pointNamed(*P, Name);
-      if (!One)
-        return One.error();
-      Wanted.push_back(std::move(*One));
-    }
-    return measure(*P, Kept, missing(*P, Kept, Wanted), sayOfSweep);
-  }
-  auto All = currentSettings(*P, Kept, *V, *Floor, A.Products);
-  if (!All)
-    return All.error();
-  if (A.Sweep.List) {
-    for (const Point &Of : missing(*P, Kept, pointsOf(*P, *All)))
-      printOut("{}\n", escaped(Of.name()));
-    return Success{};
-  }
-  // Twice: what the first round finds out says what the second measures.
-  for (int Round = 0; Round < 2; ++Round) {
-    if (auto Done = measure(*P, Kept, missing(*P, Kept, pointsOf(*P, *All)),
-                            sayOfSweep);
-        !Done)
-      return Done;
-    All = currentSettings(*P, Kept, *V, *Floor, A.Products);
-    if (!All)
-      return All.error();
-  }
-  auto Answer = verdict(*P, Kept, *All, *Floor);
-  if (!Answer)
-    return Answer.error();
-  const std::vector<Camera> OnHost = hostViews(A, *P);
-  Expected<std::vector<HostTime>> Host = std::vector<HostTime>();
-  if (!A.NoHost)
-    Host = measureHostTime(*P, OnHost, sayOfSweep);
-  if (!Host)
-    return Host.error();
-  const PageHead Head{
-      *Answer, *Host,
-      fmt::format("{}, views {} (chosen on {}), {}x{}, rules inria, errors "
-                  "against the fp64 reference of the same support",
-                  P->ScenePath, names(pointersTo(P->Views)), names(V->Choose),
-                  P->Views.front().Width, P->Views.front().Height),
-      *Floor, V->Choose};
-  if (auto Written = writeResults(*P, Kept, Head, *All); !Written)
-    return Written;
-  const auto Text = recommendation(*P, Kept, *V, *All, *Floor);
-  if (!Text)
-    return Text.error();
-  printOut("{}\n\n{}", *Answer, *Text);
-  if (!A.NoHost)
-    printOut("\n{}", hostTimeText(*Host, OnHost));
-  printOut("{}/index.html\n", escaped(P->Folder));
-  return Success{};
+  PointStore Kept = storeOf(*P, logStudy);
+  StudySteps Steps;
+  Steps.Round = [&] { return roundOf(A, *P, Kept, *V, *Floor); };
+  Steps.Named = [&P](const std::vector<std::string> &Names) {
+    return named(*P, Names);
+  };
+  if (hasOwnCameras(A))
+    Steps.Begin = [&] { return writeCameras(ownCameras(A), P->Views); };
+  Steps.End = [&] { return finish(A, *P, Kept, *V, *Floor); };
+  return runStudy(A.Study, Kept, Steps, logStudy);
 }
 
 } // namespace
 
 Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
-  addSweepOptions(App, A->Sweep, "point",
+  addStudyOptions(App, A->Study, "point",
                   "the scene's or the capture's name and -accuracy");
   App.add_flag("--energy", A->Energy,
                "The chip's energy as a further axis (docs/energy.md)");
@@ -399,7 +405,7 @@ Runner addAccuracy(CLI::App &App) {
       ->option_text("N");
   addTrainOptions(App, A->Train, optionsFrom(App, First));
   return [A](const DeviceOptions &Machine) {
-    nameOutput("--out", A->Sweep.Folder,
+    nameOutput("--out", A->Study.Folder,
                A->Train.Capture.empty() ? A->Scene.Path : A->Train.Capture,
                "-accuracy");
     return run(*A, Machine);

@@ -3,23 +3,19 @@
 #include "commands/CaptureInfo.h"
 #include "commands/Choices.h"
 #include "commands/PictureOptions.h"
-#include "commands/SweepArguments.h"
+#include "commands/StudyArguments.h"
 
 #include "accuracy/Page.h"
 #include "capture/Capture.h"
 #include "io/ReportHead.h"
-#include "sweep/Origin.h"
-#include "sweep/Points.h"
+#include "study/Study.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
-#include "vorion/support/Suggest.h"
 
-#include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
@@ -67,7 +63,7 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
 }
 
 /// That every run will have times and scores; gives what it is made from.
-static Expected<Origin> check(const TrainSweepPlan &P) {
+static Expected<Provenance> check(const TrainSweepPlan &P) {
   for (const auto &[Option, Every] : {std::pair("--score-every", P.ScoreEvery),
                                       std::pair("--time-every", P.TimeEvery)})
     if (Every > P.Iterations)
@@ -80,45 +76,10 @@ static Expected<Origin> check(const TrainSweepPlan &P) {
     return C.error();
   if (C->heldOut() == 0)
     return Error{P.Capture, "no held-out views, expected some for the PSNR"};
-  return originOf(P, *C);
+  return provenanceOf(P, *C);
 }
 
-Expected<Success>
-measureTraining(TrainSweepPlan P, bool List,
-                const std::vector<std::string> &Only,
-                const std::function<void(std::string_view)> &Log) {
-  auto From = check(P);
-  if (!From)
-    return From.error();
-  P.From = std::move(*From);
-  KeptPoints Kept = keptPoints(P, Log);
-  if (List) {
-    for (const TrainPoint &Of : missing(P, Kept, trainPoints(P)))
-      printOut("{}\n", escaped(Of.name()));
-    return Success{};
-  }
-  if (auto Made = makeFolders(P.Folder); !Made)
-    return Made;
-  if (!Only.empty()) {
-    std::vector<TrainPoint> Chosen;
-    std::vector<std::string> Known;
-    for (const TrainPoint &Of : trainPoints(P)) {
-      Known.push_back(Of.name());
-      if (std::find(Only.begin(), Only.end(), Of.name()) != Only.end())
-        Chosen.push_back(Of);
-    }
-    if (Chosen.size() != Only.size())
-      return Error{"",
-                   fmt::format("--only {}: no such point, expected those that "
-                               "--list prints{}",
-                               fmt::join(Only, " --only "),
-                               didYouMean(Only.front(), Known)),
-                   ExitCode::Usage};
-    return measure(P, Kept, missing(P, Kept, Chosen), Log);
-  }
-  if (auto Done = measure(P, Kept, missing(P, Kept, trainPoints(P)), Log);
-      !Done)
-    return Done;
+static Expected<Success> finish(const TrainSweepPlan &P, PointStore &Kept) {
   const auto Results = trainResults(P, Kept);
   if (!Results)
     return Results.error();
@@ -140,6 +101,22 @@ measureTraining(TrainSweepPlan P, bool List,
     return Written;
   printOut("{}{}/index.html\n", trainTable(*Results), P.Folder);
   return Success{};
+}
+
+Expected<Success> measureTraining(TrainSweepPlan P, const StudyOptions &O) {
+  auto From = check(P);
+  if (!From)
+    return From.error();
+  P.From = std::move(*From);
+  PointStore Kept = storeOf(P, logStudy);
+  const std::vector<StudyPoint> All = studyPoints(P, trainPoints(P), logStudy);
+  StudySteps Steps;
+  Steps.Round = [&All] { return All; };
+  Steps.Named = [&All](const std::vector<std::string> &Names) {
+    return pointsNamed(All, Names, "point", "those that --list prints");
+  };
+  Steps.End = [&] { return finish(P, Kept); };
+  return runStudy(O, Kept, Steps, logStudy);
 }
 
 } // namespace vorion::splat

@@ -4,9 +4,6 @@
 #include "accuracy/TrainSweep.h"
 
 #include <CLI/CLI.hpp>
-#include <functional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace vorion::splat {
@@ -16,12 +13,8 @@ namespace vorion::splat {
 void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
                      const std::vector<CLI::Option *> &OfScenes);
 
-/// Measures the points that are missing, writes all of them to training.json
-/// and a page, and prints a table; with \p List prints their names alone, with
-/// \p Only measures those alone.
-Expected<Success>
-measureTraining(TrainSweepPlan P, bool List,
-                const std::vector<std::string> &Only,
-                const std::function<void(std::string_view)> &Log);
+/// Measures the points of \p P as \p O says, writes all of them to
+/// training.json and a page, and prints a table.
+Expected<Success> measureTraining(TrainSweepPlan P, const StudyOptions &O);
 
 } // namespace vorion::splat

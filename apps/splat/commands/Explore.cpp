@@ -3,13 +3,13 @@
 #include "commands/ExploreSpace.h"
 #include "commands/ExploreWorkload.h"
 #include "commands/OutputFile.h"
-#include "commands/SweepArguments.h"
+#include "commands/StudyArguments.h"
 #include "commands/Usage.h"
 #include "explore/Page.h"
-#include "explore/Study.h"
+#include "explore/Trials.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
-#include "sweep/Origin.h"
+#include "study/Study.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 
 struct ExploreArguments {
   WorkloadArguments Tried;
-  SweepOptions Sweep;
+  StudyOptions Study;
   std::string SpaceFile;
   EnergyArguments Energy;
   std::size_t Machines = 200, Finalists = 50, Checks = 50;
@@ -44,7 +44,7 @@ Expected<Space> spaceOf(const ExploreArguments &A, const Workload &Does,
                         const DeviceOptions &Machine) {
   if (!A.SpaceFile.empty()) {
     auto S = readSpace(A.SpaceFile);
-    if (S && A.Sweep.Only.empty())
+    if (S && A.Study.Only.empty())
       if (auto Checked = checkSpace(*S, Does, Machine, A.SpaceFile); !Checked)
         return Checked.error();
     return S;
@@ -59,20 +59,19 @@ Expected<Space> spaceOf(const ExploreArguments &A, const Workload &Does,
   return S;
 }
 
-Expected<StudyPlan> planOf(const ExploreArguments &A, Workload Does,
-                           const DeviceOptions &Machine) {
+Expected<ExplorePlan> planOf(const ExploreArguments &A, Workload Does,
+                             const DeviceOptions &Machine) {
   auto S = spaceOf(A, Does, Machine);
   if (!S)
     return S.error();
-  StudyPlan P;
+  ExplorePlan P;
   P.Does = std::move(Does);
-  P.Folder = A.Sweep.Folder;
+  P.Folder = A.Study.Folder;
   P.Setup = {Machine, A.Energy.Technology, A.Energy.Volts};
   P.Parameters = std::move(*S);
   for (const Work W : AllWork)
     P.Options[static_cast<std::size_t>(W)] = computingOptions(W);
-  P.Jobs = A.Sweep.Jobs;
-  auto From = commonOrigin(Machine);
+  auto From = commonProvenance(Machine);
   if (!From)
     return From.error();
   P.From = std::move(*From);
@@ -89,7 +88,7 @@ Expected<StudyPlan> planOf(const ExploreArguments &A, Workload Does,
   return P;
 }
 
-Expected<std::vector<Measured>> allOf(const StudyPlan &P, KeptPoints &Kept,
+Expected<std::vector<Measured>> allOf(const ExplorePlan &P, PointStore &Kept,
                                       const std::vector<Task> &Of,
                                       const std::vector<Choices> &Machines) {
   std::vector<Measured> All;
@@ -102,27 +101,28 @@ Expected<std::vector<Measured>> allOf(const StudyPlan &P, KeptPoints &Kept,
   return All;
 }
 
-/// What a study does, in two rounds: all machines on small views, then some on
-/// whole ones.
-class Study {
+/// Machines in two rounds: all of them on small views, then some on whole ones.
+class Exploration {
 public:
-  Study(const ExploreArguments &A, const StudyPlan &P)
-      : A(A), P(P), Kept(keptTrials(P, sayOfSweep)),
+  Exploration(const ExploreArguments &A, const ExplorePlan &P)
+      : A(A), P(P), Kept(storeOf(P, logStudy)),
         Machines(machinesOf(P.Parameters, A.Machines, A.Seed, Singles)) {}
 
-  /// What is to be measured now, of the round that is not done yet.
-  Expected<std::vector<Trial>> next();
-  Expected<Success> measureAll();
-  Expected<Success> measureOnly();
-  Expected<Findings> findings();
+  /// Does it all, or what the command line asks for alone.
+  Expected<Success> run(const std::vector<ViewFile> &ViewFiles);
   /// The machines that are always tried.
   std::size_t singles() const { return Singles; }
 
 private:
+  /// The trials of the round that is not done yet, or of the last.
+  Expected<std::vector<StudyPoint>> round();
+  Expected<std::vector<StudyPoint>> named(const std::vector<std::string> &);
+  Expected<Findings> findings();
+  Expected<Success> finish();
   bool hasSmall() const { return !P.Does.Small.empty(); }
-  std::vector<Trial> missingOf(const std::vector<Task> &Of,
-                               const std::vector<Choices> &Which) {
-    return missing(P, Kept, trialsOf(P, Of, Which));
+  std::vector<StudyPoint> trials(const std::vector<Task> &Of,
+                                 const std::vector<Choices> &Which) const {
+    return studyPoints(P, trialsOf(P, Of, Which));
   }
   /// All machines on small views, which are measured; none if there are none.
   Expected<std::vector<Measured>> small() {
@@ -140,13 +140,14 @@ private:
   Chosen chosenBy(const std::vector<Measured> &Small) const;
 
   const ExploreArguments &A;
-  const StudyPlan &P;
-  KeptPoints Kept;
+  const ExplorePlan &P;
+  PointStore Kept;
   std::size_t Singles = 0;
   const std::vector<Choices> Machines;
 };
 
-Study::Chosen Study::chosenBy(const std::vector<Measured> &Small) const {
+Exploration::Chosen
+Exploration::chosenBy(const std::vector<Measured> &Small) const {
   if (Small.empty())
     return {Machines, Singles, std::min(A.Checks, Machines.size() - Singles)};
   Chosen C;
@@ -168,45 +169,25 @@ Study::Chosen Study::chosenBy(const std::vector<Measured> &Small) const {
   return C;
 }
 
-Expected<std::vector<Trial>> Study::next() {
+Expected<std::vector<StudyPoint>> Exploration::round() {
   if (hasSmall())
-    if (auto Left = missingOf(P.Does.Small, Machines); !Left.empty())
-      return Left;
+    if (auto OfSmall = trials(P.Does.Small, Machines);
+        !missing(Kept, OfSmall).empty())
+      return OfSmall;
   const auto Small = small();
-  return Small ? missingOf(P.Does.Whole, chosenBy(*Small).Machines)
-               : Expected<std::vector<Trial>>(Small.error());
+  if (!Small)
+    return Small.error();
+  return trials(P.Does.Whole, chosenBy(*Small).Machines);
 }
 
-Expected<Success> Study::measureAll() {
-  for (auto Left = next();; Left = next()) {
-    if (!Left)
-      return Left.error();
-    if (Left->empty())
-      return Success{};
-    if (auto Done = measure(P, Kept, *Left, sayOfSweep); !Done)
-      return Done;
-  }
+Expected<std::vector<StudyPoint>>
+Exploration::named(const std::vector<std::string> &Names) {
+  std::vector<StudyPoint> All = trials(P.Does.Small, Machines);
+  std::ranges::move(trials(P.Does.Whole, Machines), std::back_inserter(All));
+  return pointsNamed(All, Names, "trial", "MACHINE@TASK as --list prints");
 }
 
-Expected<Success> Study::measureOnly() {
-  std::vector<Trial> Wanted;
-  std::vector<Trial> All = trialsOf(P, P.Does.Small, Machines);
-  std::ranges::move(trialsOf(P, P.Does.Whole, Machines),
-                    std::back_inserter(All));
-  for (const std::string &Name : A.Sweep.Only) {
-    const auto At = std::ranges::find(
-        All, Name, [this](const Trial &One) { return One.name(P.Parameters); });
-    if (At == All.end())
-      return usage(
-          fmt::format("--only {}: no such trial, expected MACHINE@TASK "
-                      "as --list prints",
-                      Name));
-    Wanted.push_back(*At);
-  }
-  return measure(P, Kept, missing(P, Kept, Wanted), sayOfSweep);
-}
-
-Expected<Findings> Study::findings() {
+Expected<Findings> Exploration::findings() {
   Findings F;
   auto Small = small();
   if (!Small)
@@ -242,15 +223,15 @@ Expected<Findings> Study::findings() {
 }
 
 /// What all was made from, for the foot of the page.
-Origin originsOf(const StudyPlan &P) {
-  Origin All = P.From;
+Provenance provenanceOfAll(const ExplorePlan &P) {
+  Provenance All = P.From;
   for (const Part &Of : P.Does.Parts)
     for (const auto &[Name, Is] : Of.From)
       All[P.Does.isNamed() ? Of.Name + " " + Name : Name] = Is;
   return All;
 }
 
-Expected<Success> write(const StudyPlan &P, const Json &Results,
+Expected<Success> write(const ExplorePlan &P, const Json &Results,
                         const std::string &Made) {
   Json Report = reportHead("splat-explore", 2);
   Report["made"] = Made;
@@ -261,7 +242,34 @@ Expected<Success> write(const StudyPlan &P, const Json &Results,
     return Written;
   return writeFileAtomically(
       P.Folder + "/index.html",
-      explorePageOf(Results, {Made, hashLine(originsOf(P))}));
+      explorePageOf(Results, {Made, hashLine(provenanceOfAll(P))}));
+}
+
+Expected<Success> Exploration::finish() {
+  const auto F = findings();
+  if (!F)
+    return F.error();
+  const Json Results = resultsOf(P, *F);
+  if (auto Written = write(P, Results, madeBy()); !Written)
+    return Written;
+  printOut("{}{}/index.html\n", textOf(Results), P.Folder);
+  return Success{};
+}
+
+Expected<Success> Exploration::run(const std::vector<ViewFile> &ViewFiles) {
+  StudySteps Steps;
+  Steps.Round = [this] { return round(); };
+  Steps.Named = [this](const std::vector<std::string> &Names) {
+    return named(Names);
+  };
+  Steps.Begin = [&ViewFiles]() -> Expected<Success> {
+    for (const ViewFile &F : ViewFiles)
+      if (auto Written = writeCameras(F.Path, F.Views); !Written)
+        return Written;
+    return Success{};
+  };
+  Steps.End = [this] { return finish(); };
+  return runStudy(A.Study, Kept, Steps, logStudy);
 }
 
 Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
@@ -271,50 +279,26 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
   }
   if (A.Tried.input().empty())
     return usage("expected a scene, --workload or --print-space");
-  auto Given = workloadOf(A.Tried, A.Sweep.Folder);
+  auto Given = workloadOf(A.Tried, A.Study.Folder);
   if (!Given)
     return Given.error();
   const auto P = planOf(A, std::move(Given->Does), Machine);
   if (!P)
     return P.error();
-  Study S(A, *P);
-  if (A.Machines < S.singles())
+  Exploration E(A, *P);
+  if (A.Machines < E.singles())
     printNote(
         fmt::format("splat: --machines {}: the base and each change alone "
                     "are always tried, {} machines\n",
-                    A.Machines, S.singles()));
-  if (A.Sweep.List) {
-    const auto Left = S.next();
-    if (!Left)
-      return Left.error();
-    for (const Trial &Of : *Left)
-      printOut("{}\n", escaped(Of.name(P->Parameters)));
-    return Success{};
-  }
-  if (auto Made = makeFolders(A.Sweep.Folder); !Made)
-    return Made;
-  for (const ViewFile &F : Given->ViewFiles)
-    if (auto Written = writeCameras(F.Path, F.Views); !Written)
-      return Written;
-  if (!A.Sweep.Only.empty())
-    return S.measureOnly();
-  if (auto Done = S.measureAll(); !Done)
-    return Done;
-  const auto F = S.findings();
-  if (!F)
-    return F.error();
-  const Json Results = resultsOf(*P, *F);
-  if (auto Written = write(*P, Results, madeBy()); !Written)
-    return Written;
-  printOut("{}{}/index.html\n", textOf(Results), P->Folder);
-  return Success{};
+                    A.Machines, E.singles()));
+  return E.run(Given->ViewFiles);
 }
 
 } // namespace
 
 Runner addExplore(CLI::App &App) {
   auto A = std::make_shared<ExploreArguments>();
-  addSweepOptions(App, A->Sweep, "trial",
+  addStudyOptions(App, A->Study, "trial",
                   "the scene's or the workload's name and -explore");
   App.add_flag("--print-space", A->PrintSpace,
                "Print the space that is explored by default, and end");
@@ -347,7 +331,7 @@ Runner addExplore(CLI::App &App) {
       ->option_text("N");
   addWorkloadOptions(App, A->Tried);
   return [A](const DeviceOptions &Machine) {
-    nameOutput("--out", A->Sweep.Folder, A->Tried.input(), "-explore");
+    nameOutput("--out", A->Study.Folder, A->Tried.input(), "-explore");
     return run(*A, Machine);
   };
 }

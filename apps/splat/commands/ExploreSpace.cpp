@@ -3,7 +3,7 @@
 #include "commands/PictureOptions.h"
 #include "commands/TrainedOptions.h"
 #include "device/Device.h"
-#include "explore/Study.h"
+#include "explore/Trials.h"
 #include "render/OwnProcess.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Suggest.h"

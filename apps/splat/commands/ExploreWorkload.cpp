@@ -1,6 +1,6 @@
 #include "commands/ExploreWorkload.h"
 
-#include "commands/SweepArguments.h"
+#include "commands/StudyArguments.h"
 #include "commands/TrainedOptions.h"
 #include "commands/WorkloadState.h"
 #include "explore/Space.h"

@@ -5,7 +5,7 @@
 #include "commands/ReportDifference.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
-#include "sweep/Process.h"
+#include "study/Process.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Environment.h"

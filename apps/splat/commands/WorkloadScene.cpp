@@ -1,7 +1,7 @@
 #include "commands/WorkloadParts.h"
 
 #include "cameras/Motion.h"
-#include "commands/SweepArguments.h"
+#include "commands/StudyArguments.h"
 #include "io/Hash.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ Expected<Success> addScene(GivenWorkload &To, const PartHead &Head,
                            const SceneArguments &Scene,
                            const CameraArguments &Cameras,
                            const std::string &Where) {
-  auto Views = sweptViews(Cameras, Scene, Where);
+  auto Views = studyViews(Cameras, Scene, Where);
   if (!Views)
     return Views.error();
   auto Hash = hashScene(Scene.Path);

@@ -47,9 +47,10 @@ Expected<Success> addState(GivenWorkload &To, const PartHead &Head,
                            GivenState State) {
   TrainRequest &R = State.Request;
   const unsigned Timed = R.Run.Settings.Iterations;
-  Origin From{{"options", State.Options},
-              {"iterations", std::to_string(Timed)},
-              {"training", fnv1a64(jsonText(settingsJson(R.Run.Settings)))}};
+  Provenance From{
+      {"options", State.Options},
+      {"iterations", std::to_string(Timed)},
+      {"training", fnv1a64(jsonText(settingsJson(R.Run.Settings)))}};
   if (!R.From.empty()) {
     auto Hash = beginWithCheckpoint(State);
     if (!Hash)

@@ -25,9 +25,10 @@ static fs::path root() {
   return Given ? fs::path(Given) : thisProgram().parent_path().parent_path();
 }
 
-Expected<std::string> hashPrograms() {
+Expected<std::string> hashPrograms(const std::string &Splat) {
   // By name in the tree, so that a tree that is moved has the same programs.
-  std::map<std::string, fs::path> Files{{"splat", thisProgram()}};
+  std::map<std::string, fs::path> Files{
+      {"splat", Splat.empty() ? thisProgram() : fs::path(Splat)}};
   const fs::path Root = root();
   for (const char *Name :
        {"bin/vorion-clang", "bin/vorion-clang.cfg", "bin/vorion-link",

@@ -12,6 +12,7 @@ namespace vorion::splat {
 /// compiler, what kernels link, the runtime with the machine, the OpenCL
 /// platform. What is not there does not count: a device of somebody else needs
 /// only this program. An Error if one cannot be read.
-Expected<std::string> hashPrograms();
+/// \p Splat: the program that counts as this one, if it is another.
+Expected<std::string> hashPrograms(const std::string &Splat = "");
 
 } // namespace vorion::splat

@@ -1,8 +1,12 @@
 #include "explore/Judge.h"
 
+#include "io/Mean.h"
+#include "study/ParetoFront.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <tuple>
 
@@ -24,30 +28,8 @@ Criteria criteriaOf(const Figures &F) {
   return All;
 }
 
-bool beats(const Criteria &A, const Criteria &B) {
-  bool IsBetter = false;
-  for (std::size_t I = 0; I < A.size(); ++I) {
-    if (A[I] > B[I])
-      return false;
-    IsBetter |= A[I] < B[I];
-  }
-  return IsBetter;
-}
-
-/// The front of \p Among, which are places in \p All in their order.
-std::vector<std::size_t> frontOf(std::span<const Criteria> All,
-                                 const std::vector<std::size_t> &Among) {
-  std::vector<std::size_t> Front;
-  for (const std::size_t I : Among)
-    if (std::ranges::none_of(Among, [&](std::size_t J) {
-          return beats(All[J], All[I]) || (J < I && All[J] == All[I]);
-        }))
-      Front.push_back(I);
-  // Rates are negative here, and those of work that there is not are 0.
-  std::ranges::sort(Front, {}, [&](std::size_t I) {
-    return std::tuple(All[I][0], All[I][2], I);
-  });
-  return Front;
+bool isAsGood(const Criteria &A, const Criteria &B) {
+  return std::ranges::equal(A, B, std::less_equal<>());
 }
 
 std::vector<Criteria> criteriaOf(std::span<const Figures> All) {
@@ -64,6 +46,24 @@ std::vector<std::size_t> places(std::size_t Count) {
   return All;
 }
 
+/// The front of \p Among, which are places in \p All in their order. Of equal
+/// ones the first, unless \p KeepsEqual.
+std::vector<std::size_t> frontOf(std::span<const Criteria> All,
+                                 std::vector<std::size_t> Among,
+                                 bool KeepsEqual = false) {
+  std::ranges::sort(Among, {},
+                    [&](std::size_t I) { return std::tuple(All[I], I); });
+  std::vector<std::size_t> Front =
+      paretoFront(Among, [&](std::size_t A, std::size_t B) {
+        return isAsGood(All[A], All[B]) && !(KeepsEqual && All[A] == All[B]);
+      });
+  // Rates are negative here, and those of work that there is not are 0.
+  std::ranges::sort(Front, {}, [&](std::size_t I) {
+    return std::tuple(All[I][0], All[I][2], I);
+  });
+  return Front;
+}
+
 std::vector<double> ranks(std::span<const double> Of) {
   std::vector<std::size_t> Order = places(Of.size());
   std::ranges::sort(Order, {}, [&](std::size_t I) { return Of[I]; });
@@ -75,11 +75,6 @@ std::vector<double> ranks(std::span<const double> Of) {
       Ranks[Order[I]] = static_cast<double>(From + To - 1) / 2;
   }
   return Ranks;
-}
-
-double meanOf(std::span<const double> Of) {
-  return std::accumulate(Of.begin(), Of.end(), 0.0) /
-         static_cast<double>(Of.size());
 }
 
 /// Of a factor's logarithm: less is not worth a row.
@@ -141,12 +136,9 @@ std::vector<double> withoutSingleEffects(const Space &S,
 
 } // namespace
 
-bool beats(const Figures &A, const Figures &B) {
-  return beats(criteriaOf(A), criteriaOf(B));
-}
-
-std::vector<std::size_t> paretoFront(std::span<const Figures> All) {
-  return frontOf(criteriaOf(All), places(All.size()));
+std::vector<std::size_t> paretoFront(std::span<const Figures> All,
+                                     bool KeepsEqual) {
+  return frontOf(criteriaOf(All), places(All.size()), KeepsEqual);
 }
 
 std::vector<std::size_t> bestFronts(std::span<const Figures> All,

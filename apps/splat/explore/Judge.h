@@ -30,13 +30,12 @@ struct Figures {
   }
 };
 
-/// Whether \p A is as good as \p B in everything and better in something; both
-/// are of the same kinds of work.
-bool beats(const Figures &A, const Figures &B);
-
-/// Places in \p All of those that none beats, the fastest first, by the first
-/// kind of work that there is. Of equal ones the first.
-std::vector<std::size_t> paretoFront(std::span<const Figures> All);
+/// Places in \p All of those that no other one beats: none is as good in
+/// everything and better in something. The fastest first, by the first kind of
+/// work that there is. Of equal ones the first, unless \p KeepsEqual. All are
+/// of the same kinds of work.
+std::vector<std::size_t> paretoFront(std::span<const Figures> All,
+                                     bool KeepsEqual = false);
 
 /// At least \p Count places in \p All: the front, then the front of the others,
 /// and so on.

@@ -3,8 +3,7 @@
 #include "device/ClockedMachine.h"
 #include "explore/Bottleneck.h"
 #include "io/Mean.h"
-#include "sweep/Points.h"
-#include "sweep/Process.h"
+#include "study/Process.h"
 #include "vorion/support/JsonShape.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Of what runSplat() says, the program's own words.
+/// Of what runForReport() says, the program's own words.
 std::string reasonIn(const std::string &What) {
   constexpr std::string_view Before = "splat: error: ";
   const std::size_t At = What.find(Before);
@@ -144,36 +143,33 @@ DeviceOptions changed(DeviceOptions Base, const std::string &Settings) {
 Expected<Json> measureTask(const RunSetup &Setup, const Part &Of,
                            const Task &What, const TriedMachine &M,
                            const std::string &Files) {
-  const std::string Report = Files + ".json", Log = Files + ".log";
   const bool Draws = Of.Does == Work::Frames;
   std::vector<std::string> Words = What.Words;
   const std::vector<std::string> Frame{"-o", Files + ".png"},
       Iterations{"-o",        Files + ".ply", "--checkpoint",
                  "/dev/null", "--time-every", "1"};
-  const std::vector<std::string> Common{"--json", Report, "--energy"};
-  for (const auto &More : {Draws ? Frame : Iterations, Common, M.Arguments})
+  for (const auto &More : {Draws ? Frame : Iterations, M.Arguments})
     std::ranges::copy(More, std::back_inserter(Words));
+  Words.emplace_back("--energy");
   if (!Setup.Technology.empty())
     Words.insert(Words.end(), {"--technology", Setup.Technology});
   if (Setup.Volts)
     Words.insert(Words.end(), {"--voltage", fmt::format("{}", *Setup.Volts)});
-  if (auto Done = runSplat(Words, changed(Setup.Base, M.Settings), Log);
-      !Done) {
+  const auto Done =
+      runForReport(std::move(Words), changed(Setup.Base, M.Settings), Files);
+  if (!Done) {
     // By a setting, or by an option: what the base has is right.
     if (Done.error().Code != ExitCode::Usage || M.Name == "base")
       return Done.error();
-    std::filesystem::remove(Log);
+    std::filesystem::remove(Files + ".log");
     Json Refused = headOf(Of, What, M);
     Refused["refused"] = reasonIn(Done.error().What);
     return Refused;
   }
-  const auto Written = readJson(Report);
-  if (!Written)
-    return Written.error();
-  for (const char *Ending : {".png", ".ply", ".cameras.json", ".json", ".log"})
+  for (const char *Ending : {".png", ".ply", ".cameras.json"})
     std::filesystem::remove(Files + Ending);
   Json Result = headOf(Of, What, M);
-  Result.update(Draws ? frameOf(*Written) : iterationOf(*Written));
+  Result.update(Draws ? frameOf(Done->Report) : iterationOf(Done->Report));
   return Result;
 }
 

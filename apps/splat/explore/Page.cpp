@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
-#include <tuple>
 
 namespace vorion::splat {
 
@@ -49,7 +48,7 @@ void addFactors(Json &To, Work W, const Speed &Is, const Speed &Base) {
   To[keysOf(W).EnergyFactor] = Is.Joules / Base.Joules;
 }
 
-Json figuresOf(const StudyPlan &P, const Measured &M) {
+Json figuresOf(const ExplorePlan &P, const Measured &M) {
   if (!M.Refused.empty())
     return {{"refused", M.Refused}};
   Json Is;
@@ -89,7 +88,7 @@ Json tasksOf(const Measured &M) {
 }
 
 /// What each alternative alone does to the base.
-Json worthsOf(const StudyPlan &P, const Findings &F) {
+Json worthsOf(const ExplorePlan &P, const Findings &F) {
   Json All = Json::array();
   const Measured &Base = F.Whole.front();
   for (const Measured &M : F.Alone) {
@@ -166,46 +165,45 @@ Json agreementOf(const Findings &F) {
   return Agreement;
 }
 
-/// Places in \p Whole of machines that can be and are on the Pareto front.
-std::vector<std::size_t> frontOf(const std::vector<Measured> &Whole) {
+/// Places in \p Whole of machines that can be and are on the Pareto front by
+/// what \p FiguresOf gives of each.
+template <typename Function>
+std::vector<std::size_t> frontBy(const std::vector<Measured> &Whole,
+                                 Function FiguresOf, bool KeepsEqual) {
   std::vector<std::size_t> Places;
   std::vector<Figures> All;
   for (std::size_t I = 0; I < Whole.size(); ++I)
     if (Whole[I].Refused.empty()) {
       Places.push_back(I);
-      All.push_back(Whole[I].Is);
+      All.push_back(FiguresOf(Whole[I]));
     }
-  std::vector<std::size_t> Front = paretoFront(All);
+  std::vector<std::size_t> Front = paretoFront(All, KeepsEqual);
   for (std::size_t &I : Front)
     I = Places[I];
   return Front;
 }
 
-/// The same at the part \p Of alone, the fastest first. Equal ones all are on
-/// it: they may differ at other parts.
-std::vector<std::size_t> frontAt(const std::vector<Measured> &Whole,
-                                 std::size_t Of) {
-  std::vector<std::size_t> Front;
-  std::vector<Figures> All(Whole.size());
-  for (std::size_t I = 0; I < Whole.size(); ++I)
-    if (Whole[I].Refused.empty()) {
-      // Any kind of work: there is one alone.
-      All[I].of(Work::Frames) = Whole[I].Parts[Of].Is;
-      All[I].Area = Whole[I].Is.Area;
-      Front.push_back(I);
-    }
-  const std::vector<std::size_t> Can = Front;
-  std::erase_if(Front, [&](std::size_t I) {
-    return std::ranges::any_of(
-        Can, [&](std::size_t J) { return beats(All[J], All[I]); });
-  });
-  std::ranges::sort(Front, {}, [&](std::size_t I) {
-    return std::tuple(-All[I].of(Work::Frames)->Rate, I);
-  });
-  return Front;
+std::vector<std::size_t> frontOf(const std::vector<Measured> &Whole) {
+  return frontBy(Whole, [](const Measured &M) { return M.Is; }, false);
 }
 
-Json namesOf(const StudyPlan &P, const std::vector<Measured> &Whole,
+/// The same at the part \p Of alone. Equal ones all are on it: they may differ
+/// at other parts.
+std::vector<std::size_t> frontAt(const std::vector<Measured> &Whole,
+                                 std::size_t Of) {
+  return frontBy(
+      Whole,
+      [Of](const Measured &M) {
+        Figures Is;
+        // Any kind of work: there is one alone.
+        Is.of(Work::Frames) = M.Parts[Of].Is;
+        Is.Area = M.Is.Area;
+        return Is;
+      },
+      true);
+}
+
+Json namesOf(const ExplorePlan &P, const std::vector<Measured> &Whole,
              const std::vector<std::size_t> &Places) {
   Json Names = Json::array();
   for (const std::size_t I : Places)
@@ -214,7 +212,7 @@ Json namesOf(const StudyPlan &P, const std::vector<Measured> &Whole,
 }
 
 /// The parts of a workload, and the front that each would have alone.
-Json partsOf(const StudyPlan &P, const Findings &F) {
+Json partsOf(const ExplorePlan &P, const Findings &F) {
   Json All = Json::array();
   for (std::size_t I = 0; I < P.Does.Parts.size(); ++I) {
     const Part &Of = P.Does.Parts[I];
@@ -240,7 +238,7 @@ std::size_t picturesIn(const std::vector<Measured> &Whole) {
 
 } // namespace
 
-Json resultsOf(const StudyPlan &P, const Findings &F) {
+Json resultsOf(const ExplorePlan &P, const Findings &F) {
   const std::vector<std::size_t> Front = frontOf(F.Whole);
   std::map<Choices, Json> Machines;
   std::vector<Choices> Order;

@@ -1,7 +1,7 @@
 /// The page and the JSON of `splat explore`.
 #pragma once
 
-#include "explore/Study.h"
+#include "explore/Trials.h"
 
 #include <array>
 #include <string>
@@ -27,7 +27,7 @@ struct Findings {
 };
 
 /// The file explore.json, without its head.
-nlohmann::ordered_json resultsOf(const StudyPlan &P, const Findings &F);
+nlohmann::ordered_json resultsOf(const ExplorePlan &P, const Findings &F);
 
 /// The page of these; \p Made: lines for the foot.
 std::string explorePageOf(const nlohmann::ordered_json &Results,

@@ -1,7 +1,7 @@
 /// What machines are tried on: scenes with their views, and states of training.
 #pragma once
 
-#include "sweep/Origin.h"
+#include "study/Provenance.h"
 
 #include <array>
 #include <cstddef>
@@ -24,7 +24,7 @@ struct Part {
   std::string Name; ///< empty for the scene of a command line
   Work Does = Work::Frames;
   double Weight = 1; ///< of each of its frames, or of an iteration
-  Origin From;       ///< what its tasks are made from
+  Provenance From;   ///< what its tasks are made from
 };
 
 /// What one run of this program measures: a frame, or some iterations.
@@ -37,7 +37,7 @@ struct Task {
   /// The subcommand of splat, what it reads and how, and what it trains; not
   /// what it writes.
   std::vector<std::string> Words;
-  Origin From; ///< beside that of the part
+  Provenance From; ///< beside that of the part
 };
 
 struct Workload {

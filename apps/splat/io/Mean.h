@@ -2,12 +2,12 @@
 #pragma once
 
 #include <numeric>
-#include <vector>
+#include <span>
 
 namespace vorion::splat {
 
 /// In the order of \p Values; not a number where there are none.
-inline double meanOf(const std::vector<double> &Values) {
+inline double meanOf(std::span<const double> Values) {
   return std::accumulate(Values.begin(), Values.end(), 0.0) /
          static_cast<double>(Values.size());
 }

@@ -1,7 +1,7 @@
 #include "view/Stopwatch.h"
 
 #include "device/ClockedMachine.h"
-#include "sweep/Process.h"
+#include "study/Process.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>

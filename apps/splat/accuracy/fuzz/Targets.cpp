@@ -202,8 +202,9 @@ std::size_t readSweep(Bytes Input) {
   At.fill(Input, filesOf(P));
   const std::vector<Setting> Settings = singleChanges(P.Knobs);
   const std::vector<Point> Points = pointsOf(P, Settings);
-  KeptPoints Kept = keptPoints(P, requireOneLine);
-  const std::size_t Missing = missing(P, Kept, Points).size();
+  PointStore Kept = storeOf(P, requireOneLine);
+  const auto Study = studyPoints(P, Points, requireOneLine);
+  const std::size_t Missing = missing(Kept, Study).size();
   const auto Measured = candidates(P, Kept, Settings, {&P.Views.front()});
   const auto Page = pageOf(P, Kept, {"", {}, "", 50, {}}, Settings);
   require(static_cast<bool>(Measured) == (Missing == 0));
@@ -211,7 +212,8 @@ std::size_t readSweep(Bytes Input) {
   if (Measured)
     for (std::size_t A = 0; A < TimeAxes; ++A)
       recommend(*Measured, static_cast<TimeAxis>(A), 50);
-  require(static_cast<bool>(makeReferences(P, Points, requireOneLine)));
+  for (const StudyPoint &One : Study)
+    require(static_cast<bool>(One.Prepare()));
   require(static_cast<bool>(referenceOf(P, Points.front())));
   return Points.size() - Missing;
 }
@@ -220,16 +222,16 @@ std::size_t readTrainSweep(Bytes Input) {
   static const Folder At;
   const TrainSweepPlan P = smallTrainSweep(At.path());
   At.fill(Input, filesOf(P));
-  KeptPoints Kept = keptPoints(P, requireOneLine);
-  const std::size_t All = trainPoints(P).size();
-  const std::size_t Missing = missing(P, Kept, trainPoints(P)).size();
+  PointStore Kept = storeOf(P, requireOneLine);
+  const auto All = studyPoints(P, trainPoints(P), requireOneLine);
+  const std::size_t Missing = missing(Kept, All).size();
   const auto Results = trainResults(P, Kept);
   require(static_cast<bool>(Results) == (Missing == 0));
   if (Results) {
     require(!trainTable(*Results).empty());
     require(!trainPageOf(*Results, {}).empty());
   }
-  return All - Missing;
+  return All.size() - Missing;
 }
 
 Seeds checkpointSeeds() {
@@ -261,11 +263,12 @@ Seeds sweepSeeds() {
   const Folder At;
   const SweepPlan P = smallSweep(At.path());
   const std::vector<Point> Points = pointsOf(P, singleChanges(P.Knobs));
-  KeptPoints Kept = keptPoints(P, requireOneLine);
-  require(static_cast<bool>(makeReferences(P, Points, requireOneLine)));
+  PointStore Kept = storeOf(P, requireOneLine);
+  for (const StudyPoint &One : studyPoints(P, Points, requireOneLine))
+    require(static_cast<bool>(One.Prepare()));
   for (const Point &Of : Points)
-    require(
-        static_cast<bool>(Kept.keep(Of.name(), originOf(P, Of), measured(Of))));
+    require(static_cast<bool>(
+        Kept.keep(Of.name(), provenanceOf(P, Of), measured(Of))));
   std::vector<std::string> Files = filesOf(P);
   Seeds All{{"whole", At.bundled(Files)}};
   // Each file under another's name.
@@ -277,7 +280,7 @@ Seeds sweepSeeds() {
 Seeds trainSweepSeeds() {
   const Folder At;
   const TrainSweepPlan P = smallTrainSweep(At.path());
-  KeptPoints Kept = keptPoints(P, requireOneLine);
+  PointStore Kept = storeOf(P, requireOneLine);
   for (const TrainPoint &Of : trainPoints(P))
     require(static_cast<bool>(Kept.keep(Of.name(), P.From, measured(Of))));
   std::vector<std::string> Files = filesOf(P);

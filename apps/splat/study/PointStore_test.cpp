@@ -1,4 +1,4 @@
-#include "sweep/Points.h"
+#include "study/PointStore.h"
 
 #include "io/TestFiles.h"
 
@@ -11,11 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-class KeptPointsTest : public ::testing::Test {
+class PointStoreTest : public ::testing::Test {
 protected:
-  KeptPointsTest() { EXPECT_TRUE(makeFolders(Folder.path("o"))); }
+  PointStoreTest() { EXPECT_TRUE(makeFolders(Folder.path("o"))); }
 
-  KeptPoints open() {
+  PointStore open() {
     Log.clear();
     return {Folder.path("o"),
             [](const Json &J) {
@@ -28,22 +28,22 @@ protected:
   std::string Log;
 };
 
-const Origin From{{"programs", "p"}, {"scene", "A"}};
-const Origin Other{{"programs", "p"}, {"scene", "B"}};
+const Provenance From{{"programs", "p"}, {"scene", "A"}};
+const Provenance Other{{"programs", "p"}, {"scene", "B"}};
 
-TEST_F(KeptPointsTest, AreUsedForTheSameAlone) {
-  KeptPoints First = open();
+TEST_F(PointStoreTest, AreUsedForTheSameAlone) {
+  PointStore First = open();
   EXPECT_EQ(First.find("a@front", From), nullptr);
   ASSERT_TRUE(First.keep("a@front", From, Json{{"cycles", 7}}));
   EXPECT_EQ((*First.find("a@front", From))["cycles"], 7);
   EXPECT_EQ(Log, "");
 
-  KeptPoints Second = open();
+  PointStore Second = open();
   ASSERT_NE(Second.find("a@front", From), nullptr);
   EXPECT_EQ((*Second.find("a@front", From))["made_from"]["scene"], "A");
   EXPECT_EQ(Log, "");
 
-  KeptPoints Third = open();
+  PointStore Third = open();
   EXPECT_EQ(Third.find("a@front", Other), nullptr);
   EXPECT_EQ(Third.find("a@front", Other), nullptr);
   EXPECT_EQ(Log, fmt::format("{}: stale, differs in scene: not used",
@@ -51,8 +51,8 @@ TEST_F(KeptPointsTest, AreUsedForTheSameAlone) {
 }
 
 /// Each is one line and no measurement.
-TEST_F(KeptPointsTest, WhatIsNoMeasurementIsNotUsed) {
-  KeptPoints Kept = open();
+TEST_F(PointStoreTest, WhatIsNoMeasurementIsNotUsed) {
+  PointStore Kept = open();
   ASSERT_TRUE(Kept.keep("a", From, Json{{"cycles", 7}}));
   const std::string Whole = Folder.read("o/points/a.json");
   const auto Cut = [&](std::string_view What, std::string_view By) {
@@ -73,15 +73,15 @@ TEST_F(KeptPointsTest, WhatIsNoMeasurementIsNotUsed) {
       {Cut("\"p\"", "{}"), "stale, differs in programs"}};
   for (const auto &[Text, Why] : Files) {
     Folder.write("o/points/a.json", Text);
-    KeptPoints Again = open();
+    PointStore Again = open();
     EXPECT_EQ(Again.find("a", From), nullptr) << Text.substr(0, 80);
     EXPECT_NE(Log.find(Why), std::string::npos) << Log;
     EXPECT_EQ(Log.find('\n'), std::string::npos);
   }
 }
 
-TEST_F(KeptPointsTest, NoMeasurementIsNotKept) {
-  KeptPoints Kept = open();
+TEST_F(PointStoreTest, NoMeasurementIsNotKept) {
+  PointStore Kept = open();
   const auto Done = Kept.keep("a", From, Json{{"cycles", nullptr}});
   ASSERT_FALSE(Done);
   EXPECT_EQ(Done.error().Where, "a");

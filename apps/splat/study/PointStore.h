@@ -1,8 +1,8 @@
-/// Measurements that are kept as files, so that a sweep goes on where it
+/// Measurements that are kept as files, so that a study goes on where it
 /// stopped.
 #pragma once
 
-#include "sweep/Origin.h"
+#include "study/Provenance.h"
 #include "vorion/support/Expected.h"
 
 #include <functional>
@@ -15,36 +15,38 @@
 namespace vorion::splat {
 
 /// A JSON file that splat wrote.
-Expected<nlohmann::ordered_json> readJson(const std::string &Path);
+Expected<nlohmann::ordered_json> readOwnJson(const std::string &Path);
 
-/// Makes the folders of a sweep below \p Folder.
+/// Makes the folders of a study below \p Folder.
 Expected<Success> makeFolders(const std::string &Folder);
 
-/// The measurements of a sweep: each has a name, a file, and what it was made
+/// The measurements of a study: each has a name, a file, and what it was made
 /// from.
-class KeptPoints {
+class PointStore {
 public:
   using Json = nlohmann::ordered_json;
 
   /// Those of \p Folder. \p IsMeasurement says of any object whose "point" is
   /// the point's name whether the rest is a measurement of it; \p Log gets a
   /// line for each file that is not used.
-  KeptPoints(std::string Folder,
+  PointStore(std::string Folder,
              std::function<bool(const Json &)> IsMeasurement,
              std::function<void(std::string_view)> Log);
 
   /// The measurement called \p Name if it was made from \p From. Each file is
   /// read once.
-  const Json *find(const std::string &Name, const Origin &From);
+  const Json *find(const std::string &Name, const Provenance &From);
+  /// The same; an Error if there is none.
+  Expected<Json> get(const std::string &Name, const Provenance &From);
   /// Writes \p Measured and has it from now on.
-  Expected<Success> keep(const std::string &Name, const Origin &From,
+  Expected<Success> keep(const std::string &Name, const Provenance &From,
                          const Json &Measured);
 
 private:
   std::string fileOf(const std::string &Name) const;
   /// Why the file called \p Name does not serve, or nothing.
   std::string problem(const std::string &Name, const Expected<Json> &Read,
-                      const Origin &From) const;
+                      const Provenance &From) const;
 
   std::string Folder;
   std::function<bool(const Json &)> IsMeasurement;
@@ -52,20 +54,5 @@ private:
   /// By name; null where no file serves.
   std::map<std::string, Json> Known;
 };
-
-/// A measurement to be made, by \c Measure, which a line describes.
-struct Measuring {
-  std::string Name;
-  Origin From;
-  std::function<Expected<nlohmann::ordered_json>()> Measure;
-  std::function<std::string(const nlohmann::ordered_json &)> Describe;
-};
-
-/// Measures all of \p Wanted, \p Jobs at a time, and keeps them; \p Log gets a
-/// line for each one that is done. Ends with the first that fails.
-Expected<Success> measureAll(KeptPoints &Kept,
-                             const std::vector<Measuring> &Wanted,
-                             unsigned Jobs,
-                             const std::function<void(std::string_view)> &Log);
 
 } // namespace vorion::splat

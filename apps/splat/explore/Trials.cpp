@@ -1,4 +1,4 @@
-#include "explore/Study.h"
+#include "explore/Trials.h"
 
 #include "io/Hash.h"
 #include "io/Inside.h"
@@ -19,19 +19,19 @@ std::string differenceOf(const Space &S, const Choices &C) {
                      fmt::join(argumentsOf(S, C), " "));
 }
 
-const Part &partOf(const StudyPlan &P, const Task &What) {
+const Part &partOf(const ExplorePlan &P, const Task &What) {
   return P.Does.Parts[What.Of];
 }
 
-Origin originOf(const StudyPlan &P, const Trial &Of) {
-  Origin From = P.From;
-  for (const Origin *More : {&partOf(P, *Of.What).From, &Of.What->From})
+Provenance provenanceOf(const ExplorePlan &P, const Trial &Of) {
+  Provenance From = P.From;
+  for (const Provenance *More : {&partOf(P, *Of.What).From, &Of.What->From})
     From.insert(More->begin(), More->end());
   From["settings"] = differenceOf(P.Parameters, Of.Machine);
   return From;
 }
 
-Trial trialOf(const StudyPlan &P, const Task &What, const Choices &Machine) {
+Trial trialOf(const ExplorePlan &P, const Task &What, const Choices &Machine) {
   const auto Does = static_cast<std::size_t>(partOf(P, What).Does);
   return {seenBy(P.Options[Does], P.Parameters, Machine), &What};
 }
@@ -58,7 +58,7 @@ std::string Trial::name(const Space &S) const {
                      What->Name);
 }
 
-std::vector<Trial> trialsOf(const StudyPlan &P, const std::vector<Task> &Of,
+std::vector<Trial> trialsOf(const ExplorePlan &P, const std::vector<Task> &Of,
                             const std::vector<Choices> &Machines) {
   std::vector<Trial> All;
   std::set<std::string> Names;
@@ -70,43 +70,34 @@ std::vector<Trial> trialsOf(const StudyPlan &P, const std::vector<Task> &Of,
   return All;
 }
 
-KeptPoints keptTrials(const StudyPlan &P,
-                      std::function<void(std::string_view)> Log) {
+std::vector<StudyPoint> studyPoints(const ExplorePlan &P,
+                                    const std::vector<Trial> &Trials) {
+  std::vector<StudyPoint> All;
+  All.reserve(Trials.size());
+  for (const Trial &Of : Trials) {
+    StudyPoint &One = All.emplace_back();
+    One.Name = Of.name(P.Parameters);
+    One.From = provenanceOf(P, Of);
+    One.Measure =
+        [&P, Of,
+         Files = fmt::format("{}/work/{}", P.Folder, asFileName(One.Name))] {
+          return measureTask(P.Setup, partOf(P, *Of.What), *Of.What,
+                             {nameOf(P.Parameters, Of.Machine),
+                              settingsOf(P.Parameters, Of.Machine),
+                              argumentsOf(P.Parameters, Of.Machine)},
+                             Files);
+        };
+    One.Describe = described;
+  }
+  return All;
+}
+
+PointStore storeOf(const ExplorePlan &P,
+                   std::function<void(std::string_view)> Log) {
   return {P.Folder, isMeasurement, std::move(Log)};
 }
 
-std::vector<Trial> missing(const StudyPlan &P, KeptPoints &Kept,
-                           const std::vector<Trial> &Of) {
-  std::vector<Trial> Left;
-  for (const Trial &One : Of)
-    if (!Kept.find(One.name(P.Parameters), originOf(P, One)))
-      Left.push_back(One);
-  return Left;
-}
-
-Expected<Success> measure(const StudyPlan &P, KeptPoints &Kept,
-                          const std::vector<Trial> &Trials,
-                          const std::function<void(std::string_view)> &Log) {
-  std::vector<Measuring> Wanted;
-  Wanted.reserve(Trials.size());
-  for (const Trial &Of : Trials) {
-    const std::string Name = Of.name(P.Parameters);
-    Wanted.push_back(
-        {Name, originOf(P, Of),
-         [&P, &Of,
-          Files = fmt::format("{}/work/{}", P.Folder, asFileName(Name))] {
-           return measureTask(P.Setup, partOf(P, *Of.What), *Of.What,
-                              {nameOf(P.Parameters, Of.Machine),
-                               settingsOf(P.Parameters, Of.Machine),
-                               argumentsOf(P.Parameters, Of.Machine)},
-                              Files);
-         },
-         described});
-  }
-  return measureAll(Kept, Wanted, P.Jobs, Log);
-}
-
-Expected<Measured> measured(const StudyPlan &P, KeptPoints &Kept,
+Expected<Measured> measured(const ExplorePlan &P, PointStore &Kept,
                             const std::vector<Task> &Of,
                             const Choices &Machine) {
   Measured M;
@@ -115,12 +106,9 @@ Expected<Measured> measured(const StudyPlan &P, KeptPoints &Kept,
   std::vector<Total> ByPart(P.Does.Parts.size());
   for (const Task &What : Of) {
     const Trial One = trialOf(P, What, Machine);
-    const Json *Found = Kept.find(One.name(P.Parameters), originOf(P, One));
+    const auto Found = Kept.get(One.name(P.Parameters), provenanceOf(P, One));
     if (!Found)
-      return Error{P.Folder,
-                   fmt::format("trial {} is missing, expected it to be "
-                               "measured",
-                               One.name(P.Parameters))};
+      return Found.error();
     M.Tasks.push_back(*Found);
     if (Found->contains("refused")) {
       M.Refused = (*Found)["refused"].get<std::string>();

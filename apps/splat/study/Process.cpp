@@ -1,5 +1,6 @@
-#include "sweep/Process.h"
+#include "study/Process.h"
 
+#include "study/PointStore.h"
 #include "vorion/support/File.h"
 
 #include <cerrno>
@@ -7,6 +8,7 @@
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>
@@ -129,6 +131,22 @@ Expected<ProcessEnd> runSplat(const std::vector<std::string> &Arguments,
                              lastLine(LogFile)),
                  Ended->Code};
   return Ended;
+}
+
+Expected<RunReport> runForReport(std::vector<std::string> Arguments,
+                                 const DeviceOptions &Machine,
+                                 const std::string &Base) {
+  const std::string File = Base + ".json", Log = Base + ".log";
+  Arguments.insert(Arguments.end(), {"--json", File});
+  const auto Ended = runSplat(Arguments, Machine, Log);
+  if (!Ended)
+    return Ended.error();
+  auto Report = readOwnJson(File);
+  if (!Report)
+    return Report.error();
+  std::filesystem::remove(File);
+  std::filesystem::remove(Log);
+  return RunReport{std::move(*Report), Ended->ProcessorSeconds};
 }
 
 } // namespace vorion::splat

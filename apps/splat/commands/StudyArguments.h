@@ -1,10 +1,10 @@
-/// What commands that measure by many runs of `splat render` share.
+/// What commands share that measure by many runs of this program.
 #pragma once
 
 #include "commands/CameraArguments.h"
 #include "commands/SceneArguments.h"
 #include "device/DeviceOptions.h"
-#include "sweep/Origin.h"
+#include "study/Study.h"
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
@@ -14,32 +14,24 @@
 
 namespace vorion::splat {
 
-/// How a sweep is done.
-struct SweepOptions {
-  std::string Folder; ///< of measurements and page
-  unsigned Jobs = 1;
-  bool List = false;
-  std::vector<std::string> Only; ///< names, as --list prints them
-};
-
-/// Declares them. \p What is what is measured: "point"; \p Default names the
-/// folder without --out.
-void addSweepOptions(CLI::App &App, SweepOptions &S, const std::string &What,
+/// Declares options that say how a study is done. \p What is what is measured:
+/// "point"; \p Default names the folder without --out.
+void addStudyOptions(CLI::App &App, StudyOptions &S, const std::string &What,
                      const std::string &Default);
 
 /// The views to draw: all of the file, unless \p C names some. An Error of
 /// usage, at \p File, where two of them would be kept as one file.
 Expected<std::vector<Camera>>
-sweptViews(CameraArguments C, const SceneArguments &S, const std::string &File);
+studyViews(CameraArguments C, const SceneArguments &S, const std::string &File);
 
 /// What every run is made from: programs, machine and scene.
-Expected<Origin> sweptOrigin(const SceneArguments &S,
-                             const DeviceOptions &Machine);
+Expected<Provenance> sceneProvenance(const SceneArguments &S,
+                                     const DeviceOptions &Machine);
 
 /// The options of \p App from the one numbered \p First on.
 std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First);
 
 /// A line about a run that is done, unless progress is hidden.
-void sayOfSweep(std::string_view Line);
+void logStudy(std::string_view Line);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-#include "explore/Study.h"
+#include "explore/Trials.h"
 
 #include "io/TestFiles.h"
 
@@ -17,9 +17,9 @@ Json interval(double Value) {
 
 /// Two views of a scene that counts three times, one of another, and a state of
 /// training; on machines that differ in a key, and in an option of drawing.
-class StudyTest : public ::testing::Test {
+class TrialsTest : public ::testing::Test {
 protected:
-  StudyTest() {
+  TrialsTest() {
     EXPECT_TRUE(makeFolders(Folder.path("o")));
     P.Folder = Folder.path("o");
     P.From = {{"programs", "p"}};
@@ -41,19 +41,19 @@ protected:
     return T;
   }
 
-  KeptPoints open() {
-    return keptTrials(P, [](std::string_view Line) { ADD_FAILURE() << Line; });
+  PointStore open() {
+    return storeOf(P, [](std::string_view Line) { ADD_FAILURE() << Line; });
   }
 
   /// Keeps what a machine did at the task numbered \p I; without figures, that
   /// it cannot be.
-  void keep(KeptPoints &Kept, const Choices &Machine, std::size_t I, double Ms,
+  void keep(PointStore &Kept, const Choices &Machine, std::size_t I, double Ms,
             double Joules, double Area, bool IsRefused = false) {
     const Task &What = P.Does.Whole[I];
     const std::vector<Task> Alone{What};
     const Trial One = trialsOf(P, Alone, {Machine}).front();
     const Part &Of = P.Does.Parts[What.Of];
-    Origin From = P.From;
+    Provenance From = P.From;
     From.insert(Of.From.begin(), Of.From.end());
     std::string Settings = settingsOf(P.Parameters, One.Machine) + " ";
     for (const std::string &Word : argumentsOf(P.Parameters, One.Machine))
@@ -77,7 +77,7 @@ protected:
     EXPECT_TRUE(Kept.keep(One.name(P.Parameters), From, Is));
   }
 
-  void keepBase(KeptPoints &Kept) {
+  void keepBase(PointStore &Kept) {
     keep(Kept, {0, 0}, 0, 10, 1, 2);
     keep(Kept, {0, 0}, 1, 20, 2, 2);
     keep(Kept, {0, 0}, 2, 60, 5, 2.5);
@@ -85,11 +85,11 @@ protected:
   }
 
   TestFolder Folder;
-  StudyPlan P;
+  ExplorePlan P;
 };
 
-TEST_F(StudyTest, ViewsCountByTheWeightOfTheirScene) {
-  KeptPoints Kept = open();
+TEST_F(TrialsTest, ViewsCountByTheWeightOfTheirScene) {
+  PointStore Kept = open();
   keepBase(Kept);
   const auto M = measured(P, Kept, P.Does.Whole, {0, 0});
   ASSERT_TRUE(M);
@@ -107,8 +107,8 @@ TEST_F(StudyTest, ViewsCountByTheWeightOfTheirScene) {
   EXPECT_DOUBLE_EQ(M->Parts[1].TimeShare, 0.4);
 }
 
-TEST_F(StudyTest, IterationsAreNotJoinedWithFrames) {
-  KeptPoints Kept = open();
+TEST_F(TrialsTest, IterationsAreNotJoinedWithFrames) {
+  PointStore Kept = open();
   keepBase(Kept);
   const auto M = measured(P, Kept, P.Does.Whole, {0, 0});
   ASSERT_TRUE(M);
@@ -119,10 +119,10 @@ TEST_F(StudyTest, IterationsAreNotJoinedWithFrames) {
   EXPECT_DOUBLE_EQ(M->Parts[2].TimeShare, 1);
 }
 
-TEST_F(StudyTest, AWorkloadOfOneKindHasNoFiguresOfAnother) {
+TEST_F(TrialsTest, AWorkloadOfOneKindHasNoFiguresOfAnother) {
   P.Does.Parts.pop_back();
   P.Does.Whole.pop_back();
-  KeptPoints Kept = open();
+  PointStore Kept = open();
   for (std::size_t I = 0; I < 3; ++I)
     keep(Kept, {0, 0}, I, 10, 1, 2);
   const auto M = measured(P, Kept, P.Does.Whole, {0, 0});
@@ -132,7 +132,7 @@ TEST_F(StudyTest, AWorkloadOfOneKindHasNoFiguresOfAnother) {
 
 /// Training has no tiles of other sizes: its trial of such a machine is the
 /// base's.
-TEST_F(StudyTest, WhatATaskDoesNotTakeIsNotMeasuredAgain) {
+TEST_F(TrialsTest, WhatATaskDoesNotTakeIsNotMeasuredAgain) {
   const std::vector<Task> Two{P.Does.Whole[2], P.Does.Whole[3]};
   std::vector<std::string> Names;
   for (const Trial &One : trialsOf(P, Two, {{0, 0}, {0, 1}, {1, 1}}))
@@ -145,8 +145,8 @@ TEST_F(StudyTest, WhatATaskDoesNotTakeIsNotMeasuredAgain) {
   EXPECT_TRUE(Names[4].ends_with("@t"));
 }
 
-TEST_F(StudyTest, AMachineThatCannotDoAPartCannotBe) {
-  KeptPoints Kept = open();
+TEST_F(TrialsTest, AMachineThatCannotDoAPartCannotBe) {
+  PointStore Kept = open();
   for (std::size_t I = 0; I < 4; ++I)
     keep(Kept, {1, 0}, I, 10, 1, 2, I == 2);
   const auto M = measured(P, Kept, P.Does.Whole, {1, 0});
@@ -154,12 +154,12 @@ TEST_F(StudyTest, AMachineThatCannotDoAPartCannotBe) {
   EXPECT_EQ(M->Refused, "no");
 }
 
-TEST_F(StudyTest, WhatIsNotMeasuredIsAnError) {
-  KeptPoints Kept = open();
+TEST_F(TrialsTest, WhatIsNotMeasuredIsAnError) {
+  PointStore Kept = open();
   keep(Kept, {0, 0}, 0, 10, 1, 2);
   const auto M = measured(P, Kept, P.Does.Whole, {0, 0});
   ASSERT_FALSE(M);
-  EXPECT_NE(M.error().What.find("trial base@a@y is missing"),
+  EXPECT_NE(M.error().What.find("point base@a@y is missing"),
             std::string::npos);
 }
 

@@ -1,9 +1,9 @@
-#include "sweep/Origin.h"
+#include "study/Provenance.h"
 
 #include "device/Configuration.h"
 #include "device/Programs.h"
 #include "io/Hash.h"
-#include "sweep/Points.h"
+#include "study/PointStore.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -18,16 +18,6 @@ namespace vorion::splat {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-/// Files are called otherwise elsewhere: what they hold counts.
-std::string hashMachine(Json Configuration) {
-  if (Configuration.is_object()) {
-    Configuration.erase("file");
-    if (Configuration.contains("base") && Configuration["base"].is_object())
-      Configuration["base"].erase("file");
-  }
-  return fnv1a64(jsonText(Configuration));
-}
 
 void append(std::string &To, const auto &Values) {
   To += fmt::format("{};", Values.size());
@@ -49,15 +39,26 @@ Json hashesOf(const std::vector<std::string> &Files) {
 
 } // namespace
 
-Expected<Origin> commonOrigin(const DeviceOptions &Options) {
-  const auto Programs = hashPrograms();
-  if (!Programs)
-    return Programs.error();
+Expected<std::string> hashMachine(const DeviceOptions &Options) {
   auto Machine = machineConfiguration(Options);
   if (!Machine)
     return Machine.error();
-  return Origin{{"programs", *Programs},
-                {"machine", hashMachine(std::move(*Machine))}};
+  if (Machine->is_object()) {
+    Machine->erase("file");
+    if (Machine->contains("base") && (*Machine)["base"].is_object())
+      (*Machine)["base"].erase("file");
+  }
+  return fnv1a64(jsonText(*Machine));
+}
+
+Expected<Provenance> commonProvenance(const DeviceOptions &Options) {
+  const auto Programs = hashPrograms();
+  if (!Programs)
+    return Programs.error();
+  const auto Machine = hashMachine(Options);
+  if (!Machine)
+    return Machine.error();
+  return Provenance{{"programs", *Programs}, {"machine", *Machine}};
 }
 
 std::string hashView(const Camera &View) {
@@ -100,7 +101,7 @@ Expected<std::string> hashCapture(const Capture &C) {
   return fnv1a64(All);
 }
 
-std::string difference(const Json &Had, const Origin &Wanted) {
+std::string difference(const Json &Had, const Provenance &Wanted) {
   std::vector<std::string> Names;
   for (const auto &[Name, Is] : Wanted)
     if (!Had.is_object() || !Had.contains(Name) || Had[Name] != Is)
@@ -111,7 +112,7 @@ std::string difference(const Json &Had, const Origin &Wanted) {
   return Text;
 }
 
-std::string hashLine(const Origin &From) {
+std::string hashLine(const Provenance &From) {
   std::vector<std::string> Hashes;
   for (const auto &[Name, Is] : From)
     if (Is.size() == 16 &&
@@ -121,10 +122,10 @@ std::string hashLine(const Origin &From) {
 }
 
 Expected<Success> makeOnce(const std::vector<std::string> &Files,
-                           const Origin &From,
+                           const Provenance &From,
                            const std::function<Expected<Success>()> &Make) {
   const std::string Beside = Files.front() + ".origin";
-  if (const auto Had = readJson(Beside))
+  if (const auto Had = readOwnJson(Beside))
     if (Had->is_object() &&
         difference(Had->value("made_from", Json()), From).empty() &&
         Had->value("fnv1a64", Json()) == hashesOf(Files))

@@ -1,5 +1,5 @@
-/// Children of this process: each render of a sweep is a process of its own, as
-/// a user's is.
+/// Children of this process: each run of a study is a process of its own, as a
+/// user's is.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,17 @@ Expected<ProcessEnd> runSplat(const std::vector<std::string> &Arguments,
                               const DeviceOptions &Machine,
                               const std::string &LogFile,
                               const std::function<bool()> &GiveUp = {});
+
+/// What a run of this program reports.
+struct RunReport {
+  nlohmann::ordered_json Report;
+  double ProcessorSeconds = 0;
+};
+
+/// The same with --json: the report of the run. Its files have names that begin
+/// with \p Base; what the run prints is removed after it, unless it fails.
+Expected<RunReport> runForReport(std::vector<std::string> Arguments,
+                                 const DeviceOptions &Machine,
+                                 const std::string &Base);
 
 } // namespace vorion::splat

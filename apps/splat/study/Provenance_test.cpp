@@ -1,4 +1,4 @@
-#include "sweep/Origin.h"
+#include "study/Provenance.h"
 
 #include "io/TestFiles.h"
 
@@ -11,9 +11,9 @@ using namespace vorion::splat;
 
 namespace {
 
-TEST(Origin, WhatDiffersIsNamed) {
+TEST(Provenance, WhatDiffersIsNamed) {
   using Json = nlohmann::ordered_json;
-  const Origin Wanted{{"machine", "m"}, {"programs", "p"}, {"scene", "s"}};
+  const Provenance Wanted{{"machine", "m"}, {"programs", "p"}, {"scene", "s"}};
   EXPECT_EQ(difference(Json(Wanted), Wanted), "");
   EXPECT_EQ(difference(Json{{"machine", "m"}, {"programs", "p"}}, Wanted),
             "scene");
@@ -23,14 +23,14 @@ TEST(Origin, WhatDiffersIsNamed) {
     EXPECT_EQ(difference(Other, Wanted), "machine, programs and scene");
 }
 
-TEST(Origin, TheLineOfHashesLeavesOutOptions) {
+TEST(Provenance, TheLineOfHashesLeavesOutOptions) {
   EXPECT_EQ(hashLine({{"machine", "0123456789abcdef"},
                       {"options", "--size 0123456789"},
                       {"scene", "fedcba9876543210"}}),
             "fnv1a64: machine 0123456789abcdef, scene fedcba9876543210");
 }
 
-TEST(Origin, AViewIsWhatItSeesNotItsName) {
+TEST(Provenance, AViewIsWhatItSeesNotItsName) {
   Camera A = Camera::ahead(64, 48, 50);
   Camera B = A;
   B.Name = "other";
@@ -49,7 +49,7 @@ Capture oneView(const TestFolder &F) {
 }
 
 // What a lens bends is trained on as its undistorted picture.
-TEST(Origin, ACaptureIsWhatItsLensesAreToo) {
+TEST(Provenance, ACaptureIsWhatItsLensesAreToo) {
   const TestFolder F;
   Capture C = oneView(F);
   CaptureView &View = C.Views.front();
@@ -60,7 +60,7 @@ TEST(Origin, ACaptureIsWhatItsLensesAreToo) {
   EXPECT_NE(*Straight, *Bent);
 }
 
-TEST(Origin, ACaptureIsWhatItsMasksAreToo) {
+TEST(Provenance, ACaptureIsWhatItsMasksAreToo) {
   const TestFolder F;
   Capture C = oneView(F);
   CaptureView &View = C.Views.front();
@@ -74,13 +74,13 @@ TEST(Origin, ACaptureIsWhatItsMasksAreToo) {
   EXPECT_NE(*One, *Other);
 }
 
-TEST(Origin, TheMachineIsWhatItsFileSays) {
+TEST(Provenance, TheMachineIsWhatItsFileSays) {
   const TestFolder F;
   const auto MachineOf = [&](const char *Config, const char *Set) {
     DeviceOptions Machine;
     Machine.set("VORION_CONFIG", Config);
     Machine.set("VORION_SET", Set);
-    const auto All = commonOrigin(Machine);
+    const auto All = commonProvenance(Machine);
     EXPECT_TRUE(All);
     return All ? All->at("machine") : "";
   };
@@ -95,12 +95,12 @@ TEST(Origin, TheMachineIsWhatItsFileSays) {
 }
 
 /// Whatever a compiler is called: another one makes other results.
-TEST(Origin, AChangedProgramIsAnother) {
+TEST(Provenance, AChangedProgramIsAnother) {
   const TestFolder F;
   std::filesystem::create_directories(F.path("bin"));
   std::filesystem::create_directories(F.path("lib/vorion"));
   setenv("VORION_ROOT", F.path("").c_str(), 1);
-  const auto Programs = [] { return commonOrigin({})->at("programs"); };
+  const auto Programs = [] { return commonProvenance({})->at("programs"); };
   F.write("bin/vorion-clang", "a");
   F.write("lib/vorion/libdevice.a", "b");
   const std::string Before = Programs();
@@ -132,11 +132,11 @@ TEST(Origin, AChangedProgramIsAnother) {
   unsetenv("VORION_ROOT");
 }
 
-TEST(Origin, FilesAreMadeOnceForTheSame) {
+TEST(Provenance, FilesAreMadeOnceForTheSame) {
   const TestFolder F;
   const std::vector<std::string> Files{F.path("a"), F.path("b")};
   int Made = 0;
-  const auto Make = [&](const Origin &From) {
+  const auto Make = [&](const Provenance &From) {
     const auto Done = makeOnce(Files, From, [&]() -> Expected<Success> {
       ++Made;
       F.write("a", From.at("scene"));
@@ -146,7 +146,7 @@ TEST(Origin, FilesAreMadeOnceForTheSame) {
     EXPECT_TRUE(Done);
     return F.read("a");
   };
-  const Origin One{{"scene", "1"}}, Two{{"scene", "2"}};
+  const Provenance One{{"scene", "1"}}, Two{{"scene", "2"}};
   EXPECT_EQ(Make(One), "1");
   EXPECT_EQ(Make(One), "1");
   EXPECT_EQ(Made, 1);

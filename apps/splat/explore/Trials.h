@@ -5,7 +5,7 @@
 #include "explore/Measurement.h"
 #include "explore/Space.h"
 #include "explore/Workload.h"
-#include "sweep/Points.h"
+#include "study/Study.h"
 
 #include <array>
 #include <functional>
@@ -17,7 +17,7 @@
 namespace vorion::splat {
 
 /// What is measured, and where it is kept.
-struct StudyPlan {
+struct ExplorePlan {
   Workload Does;
   std::string Folder;
   RunSetup Setup;
@@ -25,8 +25,7 @@ struct StudyPlan {
   /// By kind of work, in the order of AllWork: the options that say how it is
   /// computed. Another option of a space does not change that work.
   std::array<std::set<std::string>, AllWork.size()> Options;
-  unsigned Jobs = 1; ///< measured at the same time
-  Origin From;       ///< what all trials are made from
+  Provenance From; ///< what all trials are made from
 };
 
 /// A machine at a task.
@@ -41,23 +40,19 @@ struct Trial {
 
 /// All of \p Machines at each of \p Of. Machines that a task cannot tell
 /// apart have one trial.
-std::vector<Trial> trialsOf(const StudyPlan &P, const std::vector<Task> &Of,
+std::vector<Trial> trialsOf(const ExplorePlan &P, const std::vector<Task> &Of,
                             const std::vector<Choices> &Machines);
+
+/// \p Trials as points of a study. They read \p P while they are measured. A
+/// machine that cannot be, by the simulator's words, is a measurement, too;
+/// that the base cannot is an Error.
+std::vector<StudyPoint> studyPoints(const ExplorePlan &P,
+                                    const std::vector<Trial> &Trials);
 
 /// The measurements that \p P's folder has; \p Log is told of each file that
 /// is not used.
-KeptPoints keptTrials(const StudyPlan &P,
-                      std::function<void(std::string_view)> Log);
-
-/// Those of \p Of that are to be measured.
-std::vector<Trial> missing(const StudyPlan &P, KeptPoints &Kept,
-                           const std::vector<Trial> &Of);
-
-/// Measures \p Trials and keeps them. A machine that cannot be, by the
-/// simulator's words, is a measurement, too; that the base cannot is an Error.
-Expected<Success> measure(const StudyPlan &P, KeptPoints &Kept,
-                          const std::vector<Trial> &Trials,
-                          const std::function<void(std::string_view)> &Log);
+PointStore storeOf(const ExplorePlan &P,
+                   std::function<void(std::string_view)> Log);
 
 /// A part of a workload on a machine.
 struct MeasuredPart {
@@ -79,7 +74,7 @@ struct Measured {
 /// \p Machine at all of \p Of, which are measured. Of each kind of work,
 /// the rate is the sum of the weights over the sum of the weighted times, and
 /// the energy is the weighted mean.
-Expected<Measured> measured(const StudyPlan &P, KeptPoints &Kept,
+Expected<Measured> measured(const ExplorePlan &P, PointStore &Kept,
                             const std::vector<Task> &Of,
                             const Choices &Machine);
 

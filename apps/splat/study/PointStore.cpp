@@ -1,26 +1,19 @@
-#include "sweep/Points.h"
+#include "study/PointStore.h"
 
 #include "io/Inside.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
-#include "vorion/support/Terminal.h"
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
-#include <mutex>
-#include <optional>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
 
-Expected<Json> readJson(const std::string &Path) {
+Expected<Json> readOwnJson(const std::string &Path) {
   return readRegularJson<Json>(Path, "what splat wrote there");
 }
 
@@ -36,19 +29,19 @@ Expected<Success> makeFolders(const std::string &Folder) {
   return Success{};
 }
 
-KeptPoints::KeptPoints(std::string Where,
+PointStore::PointStore(std::string Where,
                        std::function<bool(const Json &)> IsOne,
                        std::function<void(std::string_view)> Log)
     : Folder(std::move(Where)), IsMeasurement(std::move(IsOne)),
       Log(std::move(Log)) {}
 
-std::string KeptPoints::fileOf(const std::string &Name) const {
+std::string PointStore::fileOf(const std::string &Name) const {
   return fmt::format("{}/points/{}.json", Folder, asFileName(Name));
 }
 
-std::string KeptPoints::problem(const std::string &Name,
+std::string PointStore::problem(const std::string &Name,
                                 const Expected<Json> &Read,
-                                const Origin &From) const {
+                                const Provenance &From) const {
   if (!Read)
     return Read.error().What;
   if (!Read->is_object() || Read->value("point", Json()) != Name)
@@ -59,11 +52,11 @@ std::string KeptPoints::problem(const std::string &Name,
   return IsMeasurement(*Read) ? "" : "damaged, expected what a sweep wrote";
 }
 
-const Json *KeptPoints::find(const std::string &Name, const Origin &From) {
+const Json *PointStore::find(const std::string &Name, const Provenance &From) {
   const auto [At, IsNew] = Known.try_emplace(Name);
   std::error_code Ignored;
   if (IsNew && std::filesystem::exists(fileOf(Name), Ignored)) {
-    auto Read = readJson(fileOf(Name));
+    auto Read = readOwnJson(fileOf(Name));
     if (const std::string Why = problem(Name, Read, From); !Why.empty())
       Log(fmt::format("{}: {}: not used", fileOf(Name), Why));
     else
@@ -72,7 +65,17 @@ const Json *KeptPoints::find(const std::string &Name, const Origin &From) {
   return At->second.is_null() ? nullptr : &At->second;
 }
 
-Expected<Success> KeptPoints::keep(const std::string &Name, const Origin &From,
+Expected<Json> PointStore::get(const std::string &Name,
+                               const Provenance &From) {
+  if (const Json *Found = find(Name, From))
+    return *Found;
+  return Error{
+      Folder,
+      fmt::format("point {} is missing, expected it to be measured", Name)};
+}
+
+Expected<Success> PointStore::keep(const std::string &Name,
+                                   const Provenance &From,
                                    const Json &Measured) {
   Json Point{{"point", Name}, {"made_from", From}};
   Point.update(Measured);
@@ -84,49 +87,6 @@ Expected<Success> KeptPoints::keep(const std::string &Name, const Origin &From,
       !Written)
     return Written;
   Known[Name] = std::move(Point);
-  return Success{};
-}
-
-Expected<Success> measureAll(KeptPoints &Kept,
-                             const std::vector<Measuring> &Wanted,
-                             unsigned Jobs,
-                             const std::function<void(std::string_view)> &Log) {
-  std::atomic<std::size_t> Next = 0;
-  std::mutex Lock;
-  std::size_t Count = 0;
-  std::optional<Error> Failure;
-  const auto Begin = std::chrono::steady_clock::now();
-  const auto Left = [&] {
-    const std::chrono::duration<double> Spent =
-        std::chrono::steady_clock::now() - Begin;
-    return timeLeftText(Spent.count(), Count, Wanted.size());
-  };
-  const auto Work = [&] {
-    for (std::size_t I = Next++; I < Wanted.size(); I = Next++) {
-      auto Measured = Wanted[I].Measure();
-      const std::lock_guard Guard(Lock);
-      if (!Measured)
-        Failure = Measured.error();
-      else if (auto Done = Kept.keep(Wanted[I].Name, Wanted[I].From, *Measured);
-               !Done)
-        Failure = Done.error();
-      if (Failure) {
-        Next = Wanted.size();
-        return;
-      }
-      ++Count;
-      Log(fmt::format("[{}/{}] {}: {}{}", Count, Wanted.size(), Wanted[I].Name,
-                      Wanted[I].Describe(*Measured), Left()));
-    }
-  };
-  std::vector<std::thread> Others;
-  for (unsigned I = 1; I < Jobs; ++I)
-    Others.emplace_back(Work);
-  Work();
-  for (std::thread &Other : Others)
-    Other.join();
-  if (Failure)
-    return *Failure;
   return Success{};
 }
 

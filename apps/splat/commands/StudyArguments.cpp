@@ -1,4 +1,4 @@
-#include "commands/SweepArguments.h"
+#include "commands/StudyArguments.h"
 
 #include "commands/Progress.h"
 #include "io/Hash.h"
@@ -13,7 +13,7 @@
 
 namespace vorion::splat {
 
-void addSweepOptions(CLI::App &App, SweepOptions &S, const std::string &What,
+void addStudyOptions(CLI::App &App, StudyOptions &S, const std::string &What,
                      const std::string &Default) {
   writesFolder(App.add_option(
       "--out", S.Folder,
@@ -63,7 +63,7 @@ static Expected<std::vector<Camera>> chosenViews(CameraArguments C,
               : Expected<std::vector<Camera>>(File.error());
 }
 
-Expected<std::vector<Camera>> sweptViews(CameraArguments C,
+Expected<std::vector<Camera>> studyViews(CameraArguments C,
                                          const SceneArguments &S,
                                          const std::string &File) {
   auto Views = chosenViews(std::move(C), S);
@@ -74,9 +74,9 @@ Expected<std::vector<Camera>> sweptViews(CameraArguments C,
   return Views;
 }
 
-Expected<Origin> sweptOrigin(const SceneArguments &S,
-                             const DeviceOptions &Machine) {
-  auto From = commonOrigin(Machine);
+Expected<Provenance> sceneProvenance(const SceneArguments &S,
+                                     const DeviceOptions &Machine) {
+  auto From = commonProvenance(Machine);
   if (!From)
     return From;
   auto Scene = hashScene(S.Path);
@@ -91,7 +91,7 @@ std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First) {
   return {All.begin() + static_cast<std::ptrdiff_t>(First), All.end()};
 }
 
-void sayOfSweep(std::string_view Line) {
+void logStudy(std::string_view Line) {
   if (!isProgressHidden())
     printNote(fmt::format("splat: {}\n", escaped(Line)));
 }
