@@ -10,26 +10,20 @@ fixtures  the independent fp64 results of DATA/reference
 gradients  the same fixtures' gradients and hand-over sums, by path and, with
           --units, by reciprocal unit and order of the sums
 
-Prints a Markdown table and writes OUT/<mode>.json. Every row is kept as a file
-below OUT, so that a broken run goes on where it stopped; rows that were made
-from other programs or data are named and made again. Exit codes: 0 all rows within the bounds, 1 some are not, 3 no data.
+Prints a Markdown table and writes OUT/<mode>.json. OUT keeps each run's result
+(docs/studies.md). Exit codes: 0 all rows within the bounds, 1 some are not, 3 no data.
 The tools (splat, splat-reference, ...) are taken from the PATH: . scripts/env.sh
 """
 
 import argparse
 import json
 import os
-import shutil
 import subprocess
 import sys
-import time
 
 import command_line
-import kept
+import study
 
-# What makes results beside splat's programs.
-TOOLS = {name: shutil.which(name) for name in ("splat-reference", "splat-fixture", "splat-check-gradients")
-         if shutil.which(name)}
 SCENES = ("room7k_sh3", "box_sh3")
 VIEWS = ("front", "close", "far")
 SUPPORTS = {"simt": ("exact", "box3", "square3", "official16"), "raster": ("exact", "box3", "square3")}
@@ -39,34 +33,21 @@ MAX_DOUBTFUL, MAX_DOUBTFUL_HARD = 0.005, 0.02  # share of doubtful pixels
 
 class Bench:
     def __init__(self, args):
-        self.data, self.out = args.data, args.out
-        os.makedirs(self.out, exist_ok=True)
+        self.data, self.out = os.path.abspath(args.data), os.path.abspath(args.out)
 
     def path(self, name):
         return os.path.join(self.out, name)
 
-    def run(self, *command):
-        begin = time.monotonic()
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if done.returncode:
-            raise RuntimeError(f"{' '.join(command)}: exit code {done.returncode}: {done.stderr.strip()[-400:]}")
-        return time.monotonic() - begin
+    def run(self, name, inputs, *command, keep=()):
+        """The result of a command, whose words have its inputs' names, and the files that it leaves."""
+        point = study.Point(name, command, inputs, keep=keep)
+        result, = study.measure([point], self.out)
+        return result, *(study.file_of(self.out, point, ending) for ending in keep)
 
-    def once(self, name, inputs, make):
-        """The JSON file `name` below OUT; make() returns it the first time, from files and folders by what they are."""
-        return kept.result(self.path(name + ".row.json"), kept.origin({**TOOLS, **inputs}, [name]), make)
-
-    def make(self, file, inputs, *command):
-        """File below OUT made by command, which ends in the file's name."""
-        made_from = kept.origin({**TOOLS, **inputs}, command)
-        kept.once([self.path(file)], made_from, lambda: self.run(*command, self.path(file)))
-        return self.path(file)
-
-    def compare(self, expected, actual, mask, name):
-        out = self.path(name + ".cmp.json")
-        self.run("splat", "compare", expected, actual, "--mask", mask, "--json", out)
-        with open(out) as f:
-            return json.load(f)
+    def compare(self, name, expected, actual, mask):
+        inputs = {"expected": expected, "actual": actual, "mask": mask}
+        result, = self.run(name, inputs, "splat", "compare", "{expected}", "{actual}", "--mask", "{mask}", "--json", "{out}.json")
+        return result["report"]
 
 
 def db(value):
@@ -91,37 +72,30 @@ def pictures(bench, args):
         for view in args.views.split(","):
             ply = os.path.join(bench.data, "scenes", scene + ".ply")
             cameras = os.path.join(bench.data, "scenes", "cameras", scene + ".json")
-            source = (ply, "--cameras", cameras, "--view", view)
-            inputs = {"scene": os.path.abspath(ply), "cameras": os.path.abspath(cameras)}
+            source = ("{scene}", "--cameras", "{cameras}", "--view", view)
+            inputs = {"scene": ply, "cameras": cameras}
             for support in SUPPORTS["simt"]:
                 name = f"{scene}-{view}-{support}"
-                reference = bench.make(f"{name}-f64.npz", inputs, "splat-reference", *source, "--support", support, "-o")
-                made = {}
+                _, reference = bench.run(f"{name}-f64", inputs, "splat-reference", *source, "--support", support, "-o", "{out}.npz",
+                                         keep=(".npz",))
+                drawn = {}
                 for path in (p for p in SUPPORTS if support in SUPPORTS[p]):
-                    def row(path=path):
-                        base = f"{name}-{path}"
-                        picture, report = bench.path(base + ".npz"), bench.path(base + ".json")
-                        pairs = bench.path(base + "-pairs.npz")
-                        wall = bench.run("splat", "render", *source, "--support", support, "--path", path,
-                                         "-o", picture, "--json", report, "--dump-pairs", pairs)
-                        tile = "64" if path == "raster" else "16"
-                        wanted = bench.make(f"{name}-pairs{tile}.npz", inputs, "splat-reference", *source, "--support", support,
-                                            "--precision", "f32", "--tile", tile, "--pairs")
-                        same = subprocess.run(("splat", "compare", wanted, pairs, "--pairs"), capture_output=True,
-                                              text=True)
-                        result = bench.compare(reference, picture, reference, base)
-                        with open(report) as f:
-                            told = json.load(f)
-                        return {"scene": scene, "view": view, "support": support, "path": path, "wall_s": wall,
-                                "all_db": decibels(result), "sure_db": decibels(result, "_outside_doubtful"),
-                                "doubtful": result["doubtful_share"], "pairs_equal": same.returncode == 0,
-                                "pairs_said": (same.stdout or same.stderr).strip(), "report": told}
-                    made[path] = bench.once(f"{name}-{path}", inputs, row)
-                    rows.append(made[path])
-                if len(made) == 2:
-                    between = bench.once(f"{name}-paths", inputs, lambda: bench.compare(
-                        bench.path(f"{name}-simt.npz"), bench.path(f"{name}-raster.npz"), reference, f"{name}-paths"))
-                    made["raster"]["paths_db"] = decibels(between, "_outside_doubtful")
+                    result, picture, pairs = bench.run(
+                        f"{name}-{path}", inputs, "splat", "render", *source, "--support", support, "--path", path, "-o", "{out}.npz",
+                        "--json", "{out}.json", "--dump-pairs", "{out}-pairs.npz", keep=(".npz", "-pairs.npz"))
+                    tile = "64" if path == "raster" else "16"
+                    _, wanted = bench.run(f"{name}-pairs{tile}", inputs, "splat-reference", *source, "--support", support, "--precision",
+                                          "f32", "--tile", tile, "--pairs", "{out}.npz", keep=(".npz",))
+                    same = subprocess.run(("splat", "compare", wanted, pairs, "--pairs"), capture_output=True, text=True)
+                    compared = bench.compare(f"{name}-{path}-compared", reference, picture, reference)
+                    rows.append({"scene": scene, "view": view, "support": support, "path": path, "wall_s": result["seconds"],
+                                 "all_db": decibels(compared), "sure_db": decibels(compared, "_outside_doubtful"),
+                                 "doubtful": compared["doubtful_share"], "pairs_equal": same.returncode == 0,
+                                 "pairs_said": (same.stdout or same.stderr).strip(), "report": result["report"]})
+                    drawn[path] = picture
+                if len(drawn) == 2:
+                    between = bench.compare(f"{name}-paths", drawn["simt"], drawn["raster"], reference)
+                    rows[-1]["paths_db"] = decibels(between, "_outside_doubtful")
     print("| scene | view | support | path | all, dB | sure, dB | doubtful, % | paths, dB | pairs = fp32 | wall, s |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     good = True
@@ -140,22 +114,16 @@ def fixture_names(bench):
                   if n.endswith(".npz") and not n.endswith("_more.npz"))
 
 
-def fixture_of(bench, name):
-    """The file of a fixture, as what a result is made from."""
-    return {"fixture": os.path.abspath(os.path.join(bench.data, "reference", name + ".npz"))}
-
-
 def converted(bench, name):
     """The folder of fixture `name` as splat reads it, and its options."""
-    folder = bench.path(name)
-    bench.once(name + "-fixture", fixture_of(bench, name), lambda: bench.run(
-        "splat-fixture", os.path.join(bench.data, "reference", name + ".npz"), "-o", folder))
+    fixture = os.path.join(bench.data, "reference", name + ".npz")
+    _, folder = bench.run(name, {"fixture": fixture}, "splat-fixture", "{fixture}", "-o", "{out}.fixture", keep=(".fixture",))
     with open(os.path.join(folder, "options.json")) as f:
         return folder, json.load(f)
 
 
-def fixture_flags(folder, options):
-    flags = [os.path.join(folder, "scene.ply"), "--cameras", os.path.join(folder, "cameras.json"), "--view", "view",
+def fixture_flags(options):
+    flags = ["{fixture}/scene.ply", "--cameras", "{fixture}/cameras.json", "--view", "view",
              "--rules", options["rules"], "--support", options["support"], "--dilation", str(options["dilation"]),
              "--background", ",".join(str(b) for b in options["background"])]
     return flags + (["--antialiased"] if options["antialiased"] else [])
@@ -171,17 +139,14 @@ def fixtures(bench, args):
             continue
         folder, options = converted(bench, name)
         for path in ("simt", "raster"):
-            def row(path=path):
-                picture = os.path.join(folder, path + ".npz")
-                command = ["splat", "render", *fixture_flags(folder, options), "--path", path, "-o", picture]
-                bench.run(*command)
-                mask = os.path.join(folder, "reference.npz")
-                result = bench.compare(os.path.join(folder, "expected.npz"), picture, mask, f"{name}-{path}")
-                return {"fixture": name, "path": path, "rules": options["rules"], "support": options["support"],
-                        "all_db": decibels(result), "sure_db": decibels(result, "_outside_doubtful"),
-                        "doubtful": result["doubtful_share"], "required": required,
-                        "conversion_db": options["conversion_db_outside_doubtful"]}
-            rows.append(bench.once(f"{name}-{path}", fixture_of(bench, name), row))
+            _, picture = bench.run(f"{name}-{path}", {"fixture": folder}, "splat", "render", *fixture_flags(options), "--path", path,
+                                   "-o", "{out}.npz", keep=(".npz",))
+            result = bench.compare(f"{name}-{path}-compared", os.path.join(folder, "expected.npz"), picture,
+                                   os.path.join(folder, "reference.npz"))
+            rows.append({"fixture": name, "path": path, "rules": options["rules"], "support": options["support"],
+                         "all_db": decibels(result), "sure_db": decibels(result, "_outside_doubtful"),
+                         "doubtful": result["doubtful_share"], "required": required,
+                         "conversion_db": options["conversion_db_outside_doubtful"]})
     print("| fixture | rules | support | path | all, dB | sure, dB | doubtful, % | the conversion alone, dB |")
     print("|---|---|---|---|---|---|---|---|")
     good = True
@@ -211,17 +176,16 @@ def gradients(bench, args):
             continue
         folder, options = converted(bench, name)
         for path, unit, order in variants:
-            def row(path=path, unit=unit, order=order):
-                base = os.path.join(folder, f"gradients-{path}-{unit}-{order}")
-                choice = ["--reciprocal", unit, "--sum", order] if path == "raster" else []
-                wall = bench.run("splat", "gradients", *fixture_flags(folder, options), "--path", path, *choice,
-                                 "--upstream", os.path.join(folder, "upstream.npz"), "-o", base + ".npz")
-                subprocess.run(("splat-check-gradients", os.path.join(folder, "gradients.npz"), base + ".npz", "--json",
-                                base + ".json"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-                with open(base + ".json") as f:
-                    return {"fixture": name, "path": path, "reciprocal": unit, "sum": order, "rules": options["rules"],
-                            "wall_s": wall, "arrays": json.load(f)}
-            rows.append(bench.once(f"{name}-gradients-{path}-{unit}-{order}", fixture_of(bench, name), row))
+            choice = ["--reciprocal", unit, "--sum", order] if path == "raster" else []
+            result, found = bench.run(
+                f"{name}-gradients-{path}-{unit}-{order}", {"fixture": folder}, "splat", "gradients", *fixture_flags(options), "--path", path,
+                *choice, "--upstream", "{fixture}/upstream.npz", "-o", "{out}.npz", keep=(".npz",))
+            checked = bench.path("checked.json")
+            subprocess.run(("splat-check-gradients", os.path.join(folder, "gradients.npz"), found, "--json", checked),
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+            with open(checked) as f:
+                rows.append({"fixture": name, "path": path, "reciprocal": unit, "sum": order, "rules": options["rules"],
+                             "wall_s": result["seconds"], "arrays": json.load(f)})
     print("Relative L2 difference from fp64 (the largest, and of which array); beyond: arrays above 1e-5 and above twice the\n"
           "fixture's own fp32 error\n")
     print("| fixture | path | reciprocal | sum | largest error | of | beyond | wall, s |")
@@ -253,12 +217,7 @@ def main():
               file=sys.stderr)
         return 3
     bench = Bench(args)
-    try:
-        modes = {"pictures": pictures, "fixtures": fixtures, "gradients": gradients}
-        rows, good = modes[args.mode](bench, args)
-    except RuntimeError as error:
-        print(f"accuracy.py: error: {error}", file=sys.stderr)
-        return 1
+    rows, good = {"pictures": pictures, "fixtures": fixtures, "gradients": gradients}[args.mode](bench, args)
     with open(bench.path(args.mode + ".json"), "w") as f:
         json.dump(rows, f, indent=1)
     return 0 if good else 1

@@ -12,12 +12,12 @@ last-frame each view is drawn twice in one process, and the figures are the seco
 import argparse
 import json
 import os
-import sys
 import tempfile
 
 import clocked
 import command_line
 import scenes
+import study
 import timed_frame
 from raster_bounds import dealt
 
@@ -38,9 +38,7 @@ def draw(args, scene, view, folder, variables):
     if args.deal != "lists":
         camera = next(one for one in timed_frame.cameras_of(os.path.join(scenes.ROOT, scene.cameras)) if one["img_name"] == view)
         return timed_frame.pair(scene.path, [camera, camera], folder, *options, "--deal", args.deal, **variables)[1]
-    found, error = timed_frame.report(argparse.Namespace(scene=scene.path, cameras=scene.cameras, view=view), folder, *options, **variables)
-    if error:
-        sys.exit(f"blending_bound.py: error: {error}")
+    found, = study.reports([study.render("frame", scene, view, *options, **variables)])
     return found
 
 

@@ -10,21 +10,16 @@ results, in the same way. Each run compiles its kernels anew; options of vorion-
 pictures of a view must have the same bits. Prints tables of Markdown: the code and the warp instructions of `project`, and on
 the path simt of `blend`, and what a part's absence adds to the cycles of frames, of these kernels and of samples; with
 --frames a table of frames alone, a view a line. --views all draws every view of ../shared/data on both paths. FOLDER
-keeps what was found (resumable, also by several processes for different machines). Exit codes: 0, 1 a picture differs.
+keeps each run's result (docs/studies.md). Exit codes: 0, 1 a picture differs.
 """
 
 import argparse
-import hashlib
-import json
-import os
-import subprocess
 import sys
-import tempfile
 
 import clocked
 import command_line
-import kept
 import scenes
+import study
 from kernels import functions, resources_to
 
 # Beyond rv32imaf and what the machine is made of (docs/abi.md).
@@ -65,25 +60,26 @@ def kernels_of(path):
     return ("project", "blend") if path == "simt" else ("project",)
 
 
-def variables_of(options, folder):
-    return {**os.environ, "POCL_CACHE_DIR": os.path.join(folder, "cache"),
-            "VORION_REMARKS": options}
+def point(machine, part, name, command, options="", inputs=None, keep=(), **variables):
+    """A run with one part off, whose kernels are compiled anew."""
+    return study.Point("-".join((machine, part.replace(" ", "_"), name)), command, inputs or {},
+                       {"VORION_CONFIG": machine, "VORION_REMARKS": f"{PARTS[part]} {options}", "POCL_CACHE_DIR": "{out}.cache", **variables}, keep)
 
 
-def draw(options, scene, view, path):
-    """What a frame takes, and the hash of its picture."""
-    found = scenes.shared(scene)
-    with tempfile.TemporaryDirectory(prefix="vorion-parts-") as folder:
-        picture, report, resources = (os.path.join(folder, name) for name in ("a.pfm", "a.json", "resources"))
-        variables = variables_of(f"{options} {resources_to(resources)}", folder)
-        subprocess.run(["splat", "render", found.path, "--cameras", found.cameras, "--view", view, "--path", path, "--time",
-                        "-o", picture, "--json", report], cwd=scenes.ROOT, env=variables, check=True, stdout=subprocess.DEVNULL)
-        with open(report, encoding="utf-8") as file:
-            said = json.load(file)
-        with open(picture, "rb") as file:
-            row = {"machine": clocked.name(said["time"]["sum"]), "picture": hashlib.sha256(file.read()).hexdigest(), "cycles": {"frame": said["time"]["sum"]["cycles"]},
-                   "instructions": {"frame": said["total"]["counters"]["warp_instructions"]}}
-        code = functions(resources)
+def drawn(out, machine, parts, view):
+    """What a frame takes with each part off, and the hash of its picture."""
+    scene, name, path = view.split(":")
+    of = scenes.shared(scene)
+    command = study.render("", of, name, "--path", path, "--time").command
+    points = [point(machine, part, view.replace(":", "-"), command, resources_to("{out}.resources"),
+                    {"scene": of.path, "cameras": of.cameras}, (".resources",)) for part in parts]
+    return {part: frame(result["report"], functions(study.file_of(out, one, ".resources")), path)
+            for part, one, result in zip(parts, points, study.measure(points, out), strict=True)}
+
+
+def frame(said, code, path):
+    row = {"machine": clocked.name(said["time"]["sum"]), "picture": said["result_fnv1a64"], "cycles": {"frame": said["time"]["sum"]["cycles"]},
+           "instructions": {"frame": said["total"]["counters"]["warp_instructions"]}}
     for stage in said["time"]["stages"]:
         if stage["name"] in kernels_of(path):
             row["cycles"][stage["name"]] = stage["time"]["cycles"]
@@ -97,33 +93,12 @@ def draw(options, scene, view, path):
     return row
 
 
-def run_sample(options, program):
-    """What a sample takes, whose exit code says whether its results are right."""
-    with tempfile.TemporaryDirectory(prefix="vorion-parts-") as folder:
-        stats = os.path.join(folder, "stats.json")
-        subprocess.run([program], env={**variables_of(options, folder), "VORION_TIME": "1", "VORION_STATS": stats}, check=True,
-                       stdout=subprocess.DEVNULL)
-        with open(stats, encoding="utf-8") as file:
-            said = json.load(file)
-    return {"machine": clocked.name(said["runs"][0]["time"]), "cycles": {"all kernels": sum(run["time"]["cycles"] for run in said["runs"])},
-            "instructions": {"all kernels": said["total"]["warp_instructions"]}}
-
-
-def sampled(out, machine, part, program):
-    """The same, from FOLDER if the same programs have run it."""
-    os.environ["VORION_CONFIG"] = machine
-    file = os.path.join(out, "-".join((machine, part.replace(" ", "_"), program)) + ".json")
-    return kept.result(file, kept.origin({}, [PARTS[part], program]), lambda: run_sample(PARTS[part], program))
-
-
-def drawn(out, machine, part, view):
-    """The same, from FOLDER if the same programs have drawn it."""
-    os.environ["VORION_CONFIG"] = machine
-    scene, name, path = view.split(":")
-    file = os.path.join(out, "-".join((machine, part.replace(" ", "_"), scene, name, path)) + ".json")
-
-    return kept.result(file, kept.origin({"scene": scenes.shared(scene).path}, [PARTS[part], view]),
-                       lambda: draw(PARTS[part], scene, name, path))
+def sampled(out, machine, parts, program):
+    """What a sample takes with each part off; its exit code says whether its results are right."""
+    points = [point(machine, part, program, (program,), VORION_TIME="1", VORION_STATS="{out}.json") for part in parts]
+    reports = [result["report"] for result in study.measure(points, out)]
+    return {part: {"machine": clocked.name(said["runs"][0]["time"]), "cycles": {"all kernels": sum(run["time"]["cycles"] for run in said["runs"])},
+                   "instructions": {"all kernels": said["total"]["warp_instructions"]}} for part, said in zip(parts, reports, strict=True)}
 
 
 def change(now, before):
@@ -193,11 +168,10 @@ def main():
     for part in parts:
         if part not in PARTS:
             parser.error(f"{part}: no such part, expected some of {', '.join(PARTS)}")
-    os.makedirs(args.out, exist_ok=True)
     found, code = {}, 0
     for view in views:
         for machine in machines:
-            rows = {part: drawn(args.out, machine, part, view) for part in parts}
+            rows = drawn(args.out, machine, parts, view)
             found[machine, view] = rows
             for part in parts:
                 if rows[part]["picture"] != found[machines[0], view]["none"]["picture"]:
@@ -212,7 +186,7 @@ def main():
     for machine in machines:
         if views and not args.frames:
             cycles_table(found, machine, [(view, what) for view in views for what in ("frame", *kernels_of(view.split(":")[2]))], parts)
-    ran = {(machine, sample): {part: sampled(args.out, machine, part, sample) for part in parts}
+    ran = {(machine, sample): sampled(args.out, machine, parts, sample)
            for sample in samples for machine in machines}
     for machine in machines:
         if samples:

@@ -9,14 +9,13 @@ standard. The pictures must be the same to the bit. Exit codes: 0, 1 a frame fai
 
 import argparse
 import glob
-import hashlib
 import json
 import os
 import sys
-import tempfile
 
 import clocked
 import command_line
+import study
 import timed_frame
 
 TABLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "isasim", "timing", "dram", "standards")
@@ -35,29 +34,26 @@ def bandwidths():
     return found
 
 
-def frame(args, machine, folder, changes):
-    """(time of the launches, hash of the picture) on the machine with what is changed in its DRAM."""
+def point(args, machine, changes):
+    """The frame on the machine with what is changed in its DRAM."""
     config = json.loads(json.dumps(machine))
     config["timing"]["dram"].update(changes)
-    time = timed_frame.render(args, config, folder)
-    if "error" in time:
-        sys.exit("dram_frames.py: error: " + time["error"])
-    with open(timed_frame.picture(folder), "rb") as file:
-        return time["sum"], hashlib.sha256(file.read()).hexdigest()
+    return study.render(json.dumps(changes), timed_frame.scene_of(args), args.view, "--time", VORION_CONFIG=json.dumps(config))
 
 
-def print_table(columns, rows, render, default):
-    """A row for each of (what its first columns say, what is changed); whether all pictures are the default's."""
+def print_table(columns, rows, found, default):
+    """A row for each of (what its first columns say, what is changed); whether all pictures are the default's; found: the
+    reports of the rows."""
     print("| " + " | ".join([*columns, "Mcycles", "against the machine's", "accesses that find their row"]) + " |")
-    print("|---" * len(columns) + "|--:|--:|--:|", flush=True)
+    print("|---" * len(columns) + "|--:|--:|--:|")
     same = True
-    for cells, changes in rows:
-        time, picture = render(changes)
+    for (cells, _), report in zip(rows, found, strict=True):
+        time = report["time"]["sum"]
         dram = time["dram"]
         accesses = sum(dram[kind] for kind in ("row_hits", "row_misses", "row_conflicts"))
-        print("| " + " | ".join([*cells, f"{time['cycles'] / 1e6:.3f}", f"{time['cycles'] / default[0]['cycles'] - 1:+.1%}",
-                                 f"{dram['row_hits'] / accesses:.0%}"]) + " |", flush=True)
-        same &= picture == default[1]
+        print("| " + " | ".join([*cells, f"{time['cycles'] / 1e6:.3f}", f"{time['cycles'] / default['time']['sum']['cycles'] - 1:+.1%}",
+                                 f"{dram['row_hits'] / accesses:.0%}"]) + " |")
+        same &= report["result_fnv1a64"] == default["result_fnv1a64"]
     return same
 
 
@@ -74,14 +70,11 @@ def main():
                  if name != FOR_VALIDATION
                  for channels in [max(1, round(peak / each[name]))]]
     maps = [((name, str(size)), {"address_map": name, "channel_bytes": size}) for size in CHANNEL_BYTES for name in MAPS]
-    with tempfile.TemporaryDirectory() as folder:
-        def render(changes):
-            return frame(args, machine, folder, changes)
-        default = render({})
-        same = print_table(("standard", "channels"), standards, render, default)
-        print()
-        same &= print_table(("map", "bytes a channel"), maps, render, default)
-    clocked.say([clocked.name(default[0])])
+    default, *found = study.reports([point(args, machine, changes) for _, changes in [((), {}), *standards, *maps]])
+    same = print_table(("standard", "channels"), standards, found[:len(standards)], default)
+    print()
+    same &= print_table(("map", "bytes a channel"), maps, found[len(standards):], default)
+    clocked.say([clocked.name(default["time"]["sum"])])
     if not same:
         print("dram_frames.py: error: pictures differ, expected the same bits with every memory", file=sys.stderr)
     return 0 if same else 1

@@ -7,25 +7,21 @@ usage: bench/effects.py --out FOLDER [--scenes NAME,...] [--views NAME,...] [--c
 Renders each view of each scene of ../shared/data with --effects auto, all and flags, and prints the
 effects that are on, warp instructions of the frame (with --clock also cycles), processor seconds of the
 process, and whether the three pictures have the same bits. Small scenes come first. FOLDER keeps each
-run's result and PoCL's cache; what is there, made from the same, is not run again, so it goes on where it broke off.
+run's result (docs/studies.md) and PoCL's cache.
 --first-frame instead renders each view four times: auto and flags with an empty cache, which counts
 compiling, and both again. Exit codes: 0, 1 a run failed or pictures differ.
 """
 
 import argparse
-import hashlib
 import json
 import os
-import resource
 import shutil
-import subprocess
 import sys
-import tempfile
 
 import clocked
 import command_line
-import kept
 import scenes
+import study
 
 MODES = ("auto", "all", "flags")
 
@@ -36,47 +32,25 @@ def chosen(names):
     return sorted(found, key=scenes.size)
 
 
-def processor_seconds():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
-def render(args, key, scene, view, mode, cache):
-    """One run's result, kept in the folder under its key."""
+def point(args, name, scene, view, mode):
     clock = ["--time"] if args.clock else []
-    made_from = kept.origin({"scene": scene.path, "cameras": scene.cameras},
-                            ["--view", view, "--effects", mode, *clock, *args.options])
-    return kept.result(os.path.join(args.out, key.replace("/", "_") + ".json"), made_from,
-                       lambda: run_once(args, scene, view, mode, cache))
+    return study.render(name, scene, view, "--effects", mode, *clock, *args.options)
 
 
-def run_once(args, scene, view, mode, cache):
-    """A render, and what it took."""
-    with tempfile.TemporaryDirectory(dir=args.out) as folder:
-        picture, report = os.path.join(folder, "p.npz"), os.path.join(folder, "r.json")
-        command = ["splat", "render", scene.path, "--cameras", scene.cameras, "--view", view, "--effects", mode,
-                   "-o", picture, "--json", report] + (["--time"] if args.clock else []) + args.options
-        before = processor_seconds()
-        run = subprocess.run(command, env={**os.environ, "POCL_CACHE_DIR": cache}, cwd=scenes.ROOT,
-                             capture_output=True, text=True)
-        seconds = processor_seconds() - before
-        if run.returncode != 0:
-            sys.exit(f"effects.py: error: {' '.join(command)} failed: {run.stderr[-500:]}")
-        with open(picture, "rb") as f:
-            sha256 = hashlib.sha256(f.read()).hexdigest()
-        with open(report, encoding="utf-8") as f:
-            full = json.load(f)
-    result = {"scene": full["scene"], "view": view, "mode": mode, "device": full["device"],
-              "options": full["options"], "effects": full["effects"], "programs": full["programs"],
-              "counts": full["counts"], "picture_sha256": sha256, "processor_seconds": seconds,
-              "warp_instructions": full["total"]["counters"]["warp_instructions"],
-              "by_stage": {s["name"]: sum(k["counters"]["warp_instructions"] for k in s["kernels"])
-                           for s in full["stages"]},
-              "seconds_by_stage": {s["name"]: s["seconds"] for s in full["stages"]}}
-    if args.clock:
-        result["cycles"] = full["time"]["sum"]["cycles"]
-        result["clocked_machine"] = clocked.name(full["time"]["sum"])
-    return result
+def found_by(result, view, mode):
+    """What the tables and --json have of a run."""
+    full = result["report"]
+    found = {"scene": full["scene"], "view": view, "mode": mode, "device": full["device"],
+             "options": full["options"], "effects": full["effects"], "programs": full["programs"],
+             "counts": full["counts"], "picture": full["result_fnv1a64"], "processor_seconds": result["processor_seconds"],
+             "warp_instructions": full["total"]["counters"]["warp_instructions"],
+             "by_stage": {s["name"]: sum(k["counters"]["warp_instructions"] for k in s["kernels"])
+                          for s in full["stages"]},
+             "seconds_by_stage": {s["name"]: s["seconds"] for s in full["stages"]}}
+    if "time" in full:
+        found["cycles"] = full["time"]["sum"]["cycles"]
+        found["clocked_machine"] = clocked.name(full["time"]["sum"])
+    return found
 
 
 def on(result):
@@ -97,9 +71,11 @@ def compare(args):
             if args.views and view not in args.views:
                 continue
             clock = "-clock" if args.clock else ""
-            runs = {m: render(args, f"{scene.name}-{view}-{m}{clock}", scene, view, m, os.path.join(args.out, "cache")) for m in MODES}
+            points = [point(args, f"{scene.name}-{view}-{m}{clock}", scene, view, m) for m in MODES]
+            results = study.measure(points, args.out, POCL_CACHE_DIR=os.path.join(args.out, "cache"))
+            runs = {m: found_by(result, view, m) for m, result in zip(MODES, results, strict=True)}
             auto = runs["auto"]
-            same = len({r["picture_sha256"] for r in runs.values()}) == 1
+            same = len({r["picture"] for r in runs.values()}) == 1
             if not same:
                 differing.append(f"{scene.name} {view}")
             cells = [scene.name, view, " ".join(on(auto)), f"{auto['warp_instructions']:,}"]
@@ -124,8 +100,11 @@ def first_frames(args):
         caches = {m: os.path.join(args.out, f"first-{m}") for m in ("auto", "flags")}
         for cache in caches.values():
             shutil.rmtree(cache, ignore_errors=True)
-        runs = {(m, turn): render(args, f"{scene.name}-{view}-{m}-{turn}", scene, view, m, caches[m])
-                for turn in ("first", "second") for m in ("auto", "flags")}
+        runs = {}
+        for turn in ("first", "second"):
+            for m, cache in caches.items():
+                result, = study.measure([point(args, f"{scene.name}-{view}-{m}-{turn}", scene, view, m)], args.out, POCL_CACHE_DIR=cache)
+                runs[m, turn] = found_by(result, view, m)
         cells = [f"{runs[m, turn]['processor_seconds']:.2f} s" for turn in ("first", "second")
                  for m in ("auto", "flags")]
         print("| " + " | ".join([scene.name, view] + cells) + " |", flush=True)

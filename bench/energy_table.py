@@ -6,12 +6,11 @@ usage: energy_table.py [--scenes FOLDER] [--only TEXT]   (prints Markdown; some 
 
 import argparse
 import os
-import sys
-import tempfile
 
 import clocked
 import command_line
-import timed_frame
+import scenes
+import study
 
 FRAMES = [  # scene's file and its name, view, machine, options
     ("guitar.compressed.ply", "guitar", "front", "prototype", ()),
@@ -31,14 +30,11 @@ FRAMES = [  # scene's file and its name, view, machine, options
 OPTION_TEXTS = {(): "", ("--voltage", "0.8"): "", ("--clock", "100"): ", 100 MHz", ("--path", "simt"): ", `--path simt`"}
 
 
-def draw(scenes, frame, folder):
+def point(folder, frame):
     file, scene, view, machine, options = frame
-    of = argparse.Namespace(scene=os.path.join(scenes, file), cameras=os.path.join(scenes, "cameras", f"{scene}.json"), view=view)
+    of = scenes.with_views(os.path.join(folder, file), os.path.join(folder, "cameras", f"{scene}.json"), (view,))
     unit = () if "simt" in options else ("--exp", "table")  # the rasterizer's
-    found, error = timed_frame.report(of, folder, *unit, "--energy", *options, VORION_CONFIG=machine)
-    if error:
-        sys.exit(f"energy_table.py: error: {error}")
-    return found
+    return study.render("-".join((scene, view, machine, *options)), of, view, *unit, "--energy", *options, VORION_CONFIG=machine)
 
 
 def digits(value):
@@ -61,19 +57,16 @@ def row(frame, report):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--scenes", default=os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "..", "shared", "data", "scenes"))
+    parser.add_argument("--scenes", default=os.path.join(scenes.ROOT, scenes.SHARED))
     parser.add_argument("--only", default="", help="rows that hold this text")
     chosen = parser.parse_args()
     print("| scene, view | machine | frames/s | chip, mJ | all, mJ | chip, W | peak of the chip, W |\n|---|---|--:|--:|--:|--:|--:|")
-    names = []
-    with tempfile.TemporaryDirectory() as folder:
-        for frame in FRAMES:
-            if chosen.only in f"{' '.join(frame[:4])} {' '.join(frame[4])}":
-                found = draw(chosen.scenes, frame, folder)
-                names.append(clocked.name(found["time"]["sum"]))
-                print(row(frame, found), flush=True)
-    if names:
-        clocked.say(names)
+    frames = [frame for frame in FRAMES if chosen.only in f"{' '.join(frame[:4])} {' '.join(frame[4])}"]
+    found = study.reports([point(chosen.scenes, frame) for frame in frames])
+    for frame, report in zip(frames, found, strict=True):
+        print(row(frame, report))
+    if found:
+        clocked.say(clocked.name(report["time"]["sum"]) for report in found)
 
 
 if __name__ == "__main__":

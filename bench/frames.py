@@ -5,9 +5,9 @@ import array
 import json
 import math
 import os
-import subprocess
 
-import kept
+import scenes
+import study
 
 
 def parse_arguments(description):
@@ -23,16 +23,13 @@ def parse_arguments(description):
     return args
 
 
-def render(args, name, options):
-    """The JSON of the run called name and its picture's file; a run that is there, made from the same, is not repeated."""
-    base = os.path.join(args.out, name)
-    inputs = {"scene": os.path.abspath(args.scene), "cameras": os.path.abspath(args.cameras)}
-    made_from = kept.origin(inputs, ["--view", args.view, *args.options, *options])
-    kept.once([base + ".json", base + ".pfm"], made_from, lambda: subprocess.run(
-        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "-o", base + ".pfm", "--json",
-         base + ".json", *args.options, *options], check=True, stdout=subprocess.DEVNULL))
-    with open(base + ".json", encoding="utf-8") as f:
-        return json.load(f), base + ".pfm"
+def render(args, runs):
+    """The reports of runs, options by name, and their pictures' files by name."""
+    of = scenes.with_views(args.scene, args.cameras, (args.view,))
+    points = {name: study.render(name, of, args.view, *args.options, *options, keep=(".pfm",)) for name, options in runs.items()}
+    found = study.measure(points.values(), args.out)
+    return {name: (result["report"], study.file_of(args.out, point, ".pfm"))
+            for (name, point), result in zip(points.items(), found, strict=True)}
 
 
 def floats(picture):

@@ -20,12 +20,6 @@ PARTS = (1, 2, 4, 8, 16)
 RULES = ("last:1/2", "last:1/4", "last:1/8", "count:256", "occluded:0.5", "occluded:0.9", "occluded:0.99")
 
 
-def render(args, name, options):
-    """The counters of a run and the floats of its picture."""
-    report, picture = frames.render(args, name.replace(":", "-").replace("/", "_"), options)
-    return report["total"]["counters"], frames.floats(picture)
-
-
 def row(name, counters, picture, whole):
     base, right = whole
     largest, mean = frames.difference(right, picture)
@@ -40,19 +34,14 @@ def row(name, counters, picture, whole):
 
 def main():
     args = frames.parse_arguments(__doc__.splitlines()[0])
-    rows = []
-    for stop, options in (("stop", []), ("no stop", ["--cutoff", "0"])):
-        whole = None
-        for parts in PARTS:
-            name = f"{stop}, K={parts}"
-            result = render(args, name.replace(", ", "-").replace(" ", "-"), [*options, "--ztiles", str(parts)])
-            whole = whole or result
-            rows.append(row(name, *result, whole))
-        if stop == "stop":
-            first = whole
-    for rule in RULES:
-        rows.append(row(rule, *render(args, rule, ["--pixel-unit", rule]), first))
-    rows.append(row("skip saturated", *render(args, "skip", ["--skip-saturated"]), first))
+    # By what the table calls them: options, and the run whose picture is the right one.
+    runs = {f"{stop}, K={parts}": ([*options, "--ztiles", str(parts)], f"{stop}, K=1")
+            for stop, options in (("stop", []), ("no stop", ["--cutoff", "0"])) for parts in PARTS}
+    runs |= {rule: (["--pixel-unit", rule], "stop, K=1") for rule in RULES}
+    runs["skip saturated"] = ["--skip-saturated"], "stop, K=1"
+    found = {name: (report["total"]["counters"], frames.floats(picture)) for name, (report, picture)
+             in frames.render(args, {name: options for name, (options, _) in runs.items()}).items()}
+    rows = [row(name, *found[name], found[whole]) for name, (_, whole) in runs.items()]
     print(f"{'run':<16} {'max diff':>9} {'dB':>7} {'blends':>11} {'ratio':>6} {'lane slots':>11} "
           f"{'tails':>6} {'pixels':>8} {'visits':>12} {'tail blends':>11}")
     for r in rows:

@@ -8,12 +8,14 @@ Prints a Markdown table. Every idea draws the same bits as the picture of its ti
 
 import argparse
 import sys
-import tempfile
 
 import clocked
 import command_line
+import study
 import timed_frame
 from generators import clock
+
+BUSY = clock.busy("rasterizers")  # reasons for which a rasterizer is not idle
 
 # What the table calls it, settings of the machine, options of splat render.
 IDEAS = [
@@ -33,14 +35,15 @@ IDEAS = [
 ]
 
 
-def draw(args, settings, options, folder):
+def point(args, name, settings, options):
     variables = {"VORION_CONFIG": args.config} if args.config else {}
     if settings:
         variables["VORION_SET"] = settings
-    found, error = timed_frame.report(args, folder, "--exp", "table", "--energy", *options, **variables)
-    if error:
-        sys.exit(f"ideas.py: error: {error}")
-    busy = sum(one[reason] for one in found["time"]["sum"]["rasterizers"] for reason in clock.busy("rasterizers"))
+    return study.render(name, timed_frame.scene_of(args), args.view, "--exp", "table", "--energy", *options, **variables)
+
+
+def figures(found):
+    busy = sum(one[reason] for one in found["time"]["sum"]["rasterizers"] for reason in BUSY)
     blend = next(stage["time"]["cycles"] for stage in found["time"]["stages"] if stage["name"] == "blend")
     return {"machine": clocked.name(found["time"]["sum"]), "picture": found["result_fnv1a64"], "busy": busy, "blend": blend, "cycles": found["time"]["sum"]["cycles"],
             "joules": found["energy"]["chip_joules"]["value"], "um2": found["energy"]["area"]["chip_um2"]["value"]}
@@ -57,17 +60,16 @@ def main():
     args = parser.parse_args()
     print("| idea | rasterizers, Mcycles | blending, Mcycles | frame, Mcycles | chip, mJ | chip, mm2 |\n|---|--:|--:|--:|--:|--:|")
     pictures, base, names = {}, None, []
-    with tempfile.TemporaryDirectory() as folder:
-        for name, settings, options in IDEAS:
-            one = draw(args, settings, options, folder)
-            tile = options[options.index("--tile") + 1] if "--tile" in options else "64"
-            if pictures.setdefault(tile, one["picture"]) != one["picture"]:
-                sys.exit(f"ideas.py: error: {name}: another picture, expected the same bits")
-            base = base or one
-            cells = [(f"{one[key] / scale:.{digits}f}" if one is base else change(one[key], base[key]))
-                     for key, scale, digits in (("busy", 1e6, 3), ("blend", 1e6, 3), ("cycles", 1e6, 3), ("joules", 1e-3, 2), ("um2", 1e6, 2))]
-            print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
-            names.append(one["machine"])
+    for (name, _, options), found in zip(IDEAS, study.reports([point(args, *idea) for idea in IDEAS]), strict=True):
+        one = figures(found)
+        tile = options[options.index("--tile") + 1] if "--tile" in options else "64"
+        if pictures.setdefault(tile, one["picture"]) != one["picture"]:
+            sys.exit(f"ideas.py: error: {name}: another picture, expected the same bits")
+        base = base or one
+        cells = [(f"{one[key] / scale:.{digits}f}" if one is base else change(one[key], base[key]))
+                 for key, scale, digits in (("busy", 1e6, 3), ("blend", 1e6, 3), ("cycles", 1e6, 3), ("joules", 1e-3, 2), ("um2", 1e6, 2))]
+        print(f"| {name} | " + " | ".join(cells) + " |")
+        names.append(one["machine"])
     clocked.say(names)
 
 

@@ -2,49 +2,26 @@
 """Gaussian invocations against tile size: every scene, resolution and support, as a table.
 
 usage: bench/invocations.py [--scenes NAME...] [--widths PX...] [--out FOLDER]
-Needs `splat` on the path (scripts/env.sh) and scenes in ../shared/data. Each analysis is a JSON file in FOLDER (default
-build/invocations); those that are there, made from the same, are not made again, so an interrupted run goes on where it
-stopped.
+Needs `splat` on the path (scripts/env.sh) and scenes in ../shared/data. FOLDER (default build/invocations) keeps each analysis
+(docs/studies.md).
 """
 
 import argparse
-import json
 import os
-import subprocess
 import sys
-import time
 
 import command_line
-import kept
 import scenes
+import study
 
 SUPPORTS = ("box3", "square3")
 WIDTHS = (480, 960, 1920, 3840)
 
 
-def file_of(folder, scene, view, width):
-    return os.path.abspath(os.path.join(folder, f"{scene.name}-{view}-{width}.json"))
-
-
-def origin_of(scene, view, width):
-    """What an analysis is made from."""
-    return kept.origin({"scene": scene.path, "cameras": scene.cameras}, ["--view", view, "--width", str(width)])
-
-
-def analysis(folder, scene, view, width):
-    """The JSON of one `splat analyze`; one that is there, made from the same, is not made again."""
-    out = file_of(folder, scene, view, width)
-    os.makedirs(folder, exist_ok=True)
-
-    def make():
-        start = time.monotonic()
-        subprocess.run(["splat", "analyze", scene.path, "--cameras", scene.cameras, "--view", view,
-                        "--width", str(width), "--json", out], cwd=scenes.ROOT, check=True, stdout=subprocess.DEVNULL)
-        print(f"{scene.name} {view} {width}: {time.monotonic() - start:.1f} s", file=sys.stderr, flush=True)
-
-    kept.once([out], origin_of(scene, view, width), make)
-    with open(out, encoding="utf-8") as f:
-        return json.load(f)
+def point(scene, view, width):
+    """An analysis of a view."""
+    command = ("splat", "analyze", "{scene}", "--cameras", "{cameras}", "--view", view, "--width", str(width), "--json", "{out}.json")
+    return study.Point(f"{scene.name}-{view}-{width}", command, {"scene": scene.path, "cameras": scene.cameras})
 
 
 def main():
@@ -63,8 +40,8 @@ def main():
     print("|---|---|" + "--:|" * len(columns))
     for scene in map(scenes.shared, options.scenes):
         for view in scene.views:
-            found = {width: analysis(options.out, scene, view, width)["invocations_by_support"]
-                     for width in options.widths}
+            results = study.measure([point(scene, view, width) for width in options.widths], options.out)
+            found = {width: result["report"]["invocations_by_support"] for width, result in zip(options.widths, results)}
             cells = []
             for support, width in columns:
                 pairs = found[width][support]

@@ -64,7 +64,12 @@ def size(scene):
     return sum(os.path.getsize(os.path.join(folder, f)) for folder, _, files in os.walk(path) for f in files)
 
 
-def given(path, cameras):
-    """Any other scene, called as its file is."""
+def with_views(path, cameras, views):
+    """Any other scene, called as its file is, with these views; nothing is read."""
     path, cameras = os.path.abspath(path), os.path.abspath(cameras)
-    return Scene(os.path.basename(path).split(".")[0], path, cameras, views_of(cameras))
+    return Scene(os.path.basename(path).split(".")[0], path, cameras, views)
+
+
+def given(path, cameras):
+    """The same with all views."""
+    return with_views(path, cameras, views_of(os.path.abspath(cameras)))

@@ -11,7 +11,6 @@ usage: simt_sweep.py SCENE --cameras CAMERAS --view VIEW --out FOLDER [--json FI
 FOLDER keeps each run's result; what is there is not run again.
 """
 
-import hashlib
 import sys
 
 import command_line
@@ -19,13 +18,6 @@ import frames
 
 TILES = (8, 16, 32, 64)
 GROUPS = (16, 64, 256)
-
-
-def render(args, name, options):
-    """The JSON of one run and the hash of its picture."""
-    report, picture = frames.render(args, name, options)
-    with open(picture, "rb") as f:
-        return report, hashlib.sha256(f.read()).hexdigest()
 
 
 def kernel(report, name):
@@ -36,18 +28,20 @@ def kernel(report, name):
 def main():
     args = frames.parse_arguments(__doc__.splitlines()[0])
 
-    raster, _ = render(args, "raster", ["--path", "raster"])
+    kernels = {(tile, group): ["--path", "simt", "--simt-tile", str(tile), "--simt-group", str(group)]
+               for tile in TILES for group in GROUPS}
+    found = frames.render(args, {"raster": ["--path", "raster"],
+                                 **{f"simt-{tile}-{group}": options for (tile, group), options in kernels.items()}})
+    raster, _ = found["raster"]
     blends = raster["total"]["counters"]["raster_blends"]
     rows, pictures = [], set()
-    for tile in TILES:
-        for group in GROUPS:
-            report, picture = render(args, f"simt-{tile}-{group}",
-                                     ["--path", "simt", "--simt-tile", str(tile), "--simt-group", str(group)])
-            pictures.add(picture)
-            blend = kernel(report, "blend")
-            rows.append({"tile": tile, "group": group, "blend_warp_instructions": blend,
-                         "per_blend": blend / blends, "pairs": report["counts"]["pairs"],
-                         "frame_warp_instructions": report["total"]["counters"]["warp_instructions"]})
+    for tile, group in kernels:
+        report, _ = found[f"simt-{tile}-{group}"]
+        pictures.add(report["result_fnv1a64"])
+        blend = kernel(report, "blend")
+        rows.append({"tile": tile, "group": group, "blend_warp_instructions": blend,
+                     "per_blend": blend / blends, "pairs": report["counts"]["pairs"],
+                     "frame_warp_instructions": report["total"]["counters"]["warp_instructions"]})
     best = min(rows, key=lambda r: r["blend_warp_instructions"])
     best_frame = min(rows, key=lambda r: r["frame_warp_instructions"])
     print(f"{blends} blends; warp instructions")

@@ -18,7 +18,7 @@ import subprocess
 import sys
 
 import command_line
-import kept
+import study
 
 
 def fnv1a64(data):
@@ -47,6 +47,21 @@ def train(capture, output, iterations, options):
     return json.loads(pathlib.Path(f"{output}.json").read_text())
 
 
+def begun(arguments, path, options):
+    """A checkpoint after one iteration, which all runs of the path begin with. Ends the script if the folder's runs began with
+    another one."""
+    words = ("splat", "train", "{capture}", "-o", "{out}.ply", "--checkpoint", "{out}.checkpoint", "--iterations", "1", "--json",
+             "{out}.json", *options, "--path", path)
+    start = study.Point(f"{path}-start", words, {"capture": os.path.abspath(arguments.capture)}, keep=(".checkpoint",))
+    result, = study.measure([start], arguments.folder)
+    asked, of = result["made_from"], arguments.folder / f"{path}-asked.json"
+    had = json.loads(of.read_text()) if of.exists() else asked
+    if other := [name for name in asked if had.get(name) != asked[name]]:
+        sys.exit(f"train_spread.py: error: {of}: runs of other {', '.join(other)}, expected the same or another --folder")
+    of.write_text(json.dumps(asked))
+    return pathlib.Path(study.file_of(arguments.folder, start, ".checkpoint")).read_bytes()
+
+
 def parted(losses, others, relative):
     """The first iteration whose losses differ by more than this, from 1; none: 0."""
     return next((i for i, (a, b) in enumerate(zip(losses, others), 1) if abs(a - b) > relative * abs(b)), 0)
@@ -61,24 +76,16 @@ def main():
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("build/train-spread"))
     arguments, options = command_line.parse(parser)
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    asked, of = kept.origin({"capture": os.path.abspath(arguments.capture)}, options), arguments.folder / "asked.json"
-    if of.exists() and json.loads(of.read_text()) != asked:
-        sys.exit(f"train_spread.py: error: {of}: runs of other {', '.join(kept.differences(json.loads(of.read_text()), asked))}, "
-                 "expected the same or another --folder")
-    of.write_text(json.dumps(asked))
     first = None
     for path in arguments.paths.split(","):
         scores = []
-        start = arguments.folder / f"{path}-start.ply.checkpoint"
-        if not start.exists():
-            train(arguments.capture, arguments.folder / f"{path}-start.ply", 1, [*options, "--path", path])
+        start = begun(arguments, path, options)
         for run in range(arguments.runs):
             output = arguments.folder / f"{path}-{run}.ply"
             checkpoint = pathlib.Path(f"{output}.checkpoint")
             if not checkpoint.exists():
-                begun = start.read_bytes()
                 aside = pathlib.Path(f"{output}.begun")
-                aside.write_bytes(flipped(begun, run) if run > 0 else begun)
+                aside.write_bytes(flipped(start, run) if run > 0 else start)
                 aside.rename(checkpoint)
             result = pathlib.Path(f"{output}.json")
             if not result.exists() or json.loads(result.read_text())["iterations"] < arguments.iterations:

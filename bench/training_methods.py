@@ -5,19 +5,17 @@ usage: bench/training_methods.py CAPTURE --results FOLDER [--seeds N] [--iterati
 
 Trains CAPTURE with each method and seed, as OPTIONS of splat train say. Cycles are of the default machine's clock: the mean
 of the iterations of seed 0 that --time-every times, and the third iteration, before which no method has changed the number of
-Gaussians. Seconds are of the processor, for a run without the clock: the median of the seeds. One result a file in FOLDER,
-which is kept: what is there is not made again.
+Gaussians. Seconds are of the processor, for a run without the clock: the median of the seeds. FOLDER keeps each
+run's result (docs/studies.md).
 """
 
 import argparse
-import json
 import os
-import resource
 import statistics
-import subprocess
 
 import clocked
 import command_line
+import study
 
 METHODS = {
     "classic": [],
@@ -33,25 +31,11 @@ METHODS = {
 }
 
 
-def run(args, name, seed, more):
-    """The report of a run."""
+def point(args, name, seed, more):
     words = [name.replace(",", "").replace(" ", "-"), str(seed), *(word.strip("-") for word in more)]
-    file = os.path.join(args.results, "-".join(words) + ".json")
-    if not os.path.exists(file):
-        made = os.path.join(args.results, "made.json")
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run(["splat", "train", args.capture, "-o", os.path.join(args.results, "scene.ply"), "--seed", str(seed),
-                        "--checkpoint", os.devnull, "--json", made, *METHODS[name], *more, *args.options],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        with open(made, encoding="utf-8") as f:
-            report = json.load(f)
-        report["processor_s"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        with open(file + ".part", "w", encoding="utf-8") as f:
-            json.dump(report, f)
-        os.rename(file + ".part", file)
-    with open(file, encoding="utf-8") as f:
-        return json.load(f)
+    command = ("splat", "train", "{capture}", "-o", "{out}.ply", "--seed", str(seed), "--checkpoint", os.devnull, "--json",
+               "{out}.json", *METHODS[name], *more, *args.options)
+    return study.Point("-".join(words), command, {"capture": os.path.abspath(args.capture)})
 
 
 def cycles_of(report):
@@ -69,23 +53,24 @@ def main():
     parser.add_argument("--only", action="append", choices=METHODS)
     parser.add_argument("options", nargs="*")
     args = parser.parse_intermixed_args()
-    os.makedirs(args.results, exist_ok=True)
     base, names = None, []
     print("| method | PSNR, dB, by seed | mean | Gaussians | million cycles | seconds | cycles of the third iteration | more |\n"
           "|---|---|--:|--:|--:|--:|--:|--:|")
     for name in args.only or METHODS:
-        short = run(args, name, 0, ["--iterations", "3", "--time", "--time-every", "1"])
+        first, = study.measure([point(args, name, 0, ["--iterations", "3", "--time", "--time-every", "1"])], args.results)
+        short = first["report"]
         names += [clocked.name(timed["time"]["sum"]) for timed in short["timed"]]
         third = cycles_of(short)[-1]
         base = base or third
         cells = [""] * 5
         if args.iterations:
             length = ["--iterations", str(args.iterations)]
-            found = [run(args, name, seed, length) for seed in range(args.seeds)]
-            timed = cycles_of(run(args, name, 0, [*length, "--time", "--time-every", str(args.time_every)]))
-            scores = [report["psnr8_db"] for report in found]
+            *results, last = study.measure([*(point(args, name, seed, length) for seed in range(args.seeds)),
+                                            point(args, name, 0, [*length, "--time", "--time-every", str(args.time_every)])], args.results)
+            found = [result["report"] for result in results]
+            timed, scores = cycles_of(last["report"]), [report["psnr8_db"] for report in found]
             cells = [", ".join(f"{score:.2f}" for score in scores), f"{statistics.mean(scores):.2f}", f"{found[0]['gaussians']:,}",
-                     f"{statistics.mean(timed) / 1e6:.2f}", f"{statistics.median(each['processor_s'] for each in found):.1f}"]
+                     f"{statistics.mean(timed) / 1e6:.2f}", f"{statistics.median(each['processor_seconds'] for each in results):.1f}"]
         print(f"| {name} | {' | '.join(cells)} | {third:,} | {100 * third / base - 100:+.1f} % |", flush=True)
     clocked.say(names)
     return 0

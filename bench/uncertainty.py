@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How far a frame's time may be off: its interval when everything that no source gives is drawn at random.
 
-usage: uncertainty.py SCENE --cameras FILE --view NAME -o OUT.json [--config MACHINE] [--samples N] [--seed S]
+usage: uncertainty.py SCENE --cameras FILE --view NAME --out FOLDER [--config MACHINE] [--samples N] [--seed S]
 
 What is drawn: each value of the clock whose source says "ours" (vorion-sim --print-timing-parameters), from half to
 twice what it is; words and powers of two among their choices; the link, where the machine has one, in the interval
@@ -9,23 +9,20 @@ of docs/model.md; a launch as 0, 2 or 20 us. Values are drawn evenly in their lo
 equal parts of a parameter's interval is used once. Switches stay, because they are choices and not values.
 
 Each sample draws the view with the rasterizer and with the cores alone. Prints the 5 to 95 % interval of both times and
-of their ratio, and which parameters the time follows most (Spearman's rank correlation). OUT.json keeps every sample, so
-that a run that was broken off goes on. Exit codes: 0 done, 1 a frame failed, 2 usage.
+of their ratio, and which parameters the time follows most (Spearman's rank correlation). FOLDER keeps each frame
+(docs/studies.md). Exit codes: 0 done, 1 a frame failed, 2 usage.
 """
 
 import argparse
 import json
 import math
-import os
 import random
 import statistics
 import subprocess
-import sys
-import tempfile
 
 import clocked
 import command_line
-import kept
+import study
 import timed_frame
 
 LINK = {"l2_mhz": (100, 200), "to_l2_ns": (10, 100), "from_l2_ns": (10, 100), "to_l2_mbps": (1600, 12800),
@@ -93,18 +90,27 @@ def samples(domains, count, seed):
     return drawn
 
 
-def run(args, default, sample, folder):
-    config = json.loads(json.dumps(default))
-    for (group, name), value in sample.items():
-        config["timing"][group][name] = value
-    times = {}
-    for path in ("raster", "simt"):
-        time = timed_frame.render(args, config, folder, "--path", path)
-        if "error" in time:
-            sys.exit("uncertainty.py: error: " + time["error"])
-        times[path] = time["frame_ms"]
-        times["machine"] = clocked.name(time["sum"])
-    return {"values": {".".join(key): value for key, value in sample.items()}, **times}
+PATHS = ("raster", "simt")
+
+
+def points_of(args, default, drawn):
+    """Of each sample, one with the rasterizer and one with the cores alone."""
+    of = timed_frame.scene_of(args)
+    for number, sample in enumerate(drawn):
+        config = json.loads(json.dumps(default))
+        for (group, name), value in sample.items():
+            config["timing"][group][name] = value
+        for path in PATHS:
+            yield study.render(f"{number}-{path}", of, args.view, "--time", "--path", path, VORION_CONFIG=json.dumps(config))
+
+
+def results_of(drawn, measured):
+    """What table() takes of each sample."""
+    times = [result["report"]["time"] for result in measured]
+    for number, sample in enumerate(drawn):
+        own = times[len(PATHS) * number:][:len(PATHS)]
+        yield {"values": {".".join(key): value for key, value in sample.items()}, "machine": clocked.name(own[-1]["sum"]),
+               **{path: time["frame_ms"] for path, time in zip(PATHS, own)}}
 
 
 def ranks(values):
@@ -155,7 +161,8 @@ def table(base, results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     timed_frame.add_view(parser)
-    parser.add_argument("-o", "--output", required=True)
+    parser.add_argument("--out", required=True, help="folder for the frames")
+    parser.add_argument("--jobs", type=int, default=1, help="frames that are drawn at the same time (default: %(default)s)")
     parser.add_argument("--config", help="a machine's name or file; default: the default machine")
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--seed", type=int, default=1)
@@ -164,26 +171,9 @@ def main():
         parser.error(f"--samples is {args.samples}, expected 3 or more")
 
     default = timed_frame.machine(args.config)
-    made_from = kept.origin({"scene": os.path.abspath(args.scene), "cameras": os.path.abspath(args.cameras)},
-                            ["--view", args.view, args.samples, args.seed, default])
-    state = {"made_from": made_from, "samples": []}
-    if os.path.exists(args.output):
-        with open(args.output, encoding="utf-8") as file:
-            had = json.load(file)
-        if kept.differences(had.get("made_from"), made_from):
-            kept.say_stale(args.output, had.get("made_from"), made_from)
-        else:
-            state = had
     drawn = [{}, *samples(dimensions(default["timing"]), args.samples, args.seed)]  # the first is the machine as it is
-    with tempfile.TemporaryDirectory() as folder:
-        for number in range(len(state["samples"]), len(drawn)):
-            state["samples"].append(run(args, default, drawn[number], folder))
-            with open(args.output + ".new", "w", encoding="utf-8") as file:
-                json.dump(state, file, indent=1)
-            os.replace(args.output + ".new", args.output)
-            if number % 8 == 0:
-                print(f"{number} of {args.samples} samples", file=sys.stderr, flush=True)
-    table(state["samples"][0], state["samples"][1:])
+    base, *results = results_of(drawn, study.measure(list(points_of(args, default, drawn)), args.out, args.jobs))
+    table(base, results)
 
 
 if __name__ == "__main__":

@@ -42,10 +42,10 @@ def of_scaling(store, all_scenes):
             for label, change in FOR_SCALING:
                 wanted[width, scene.name, label] = [Run(sized, sized.views[0], machines.changed(scaling.machine_of(n), **change),
                                                         r.parted(1)) for n in (1, scaling.RASTERIZERS_A_MEMORY)]
-    store.prepare([run for pair in wanted.values() for run in pair], TITLE)
+    store.prepare([run for pair in wanted.values() for run in pair])
 
     def row(width, scene, label):
-        one, many = store.all(wanted[width, scene, label], TITLE)
+        one, many = store.all(wanted[width, scene, label])
         return {"scene": scene, "size": "x".join(map(str, many["resolution"])), "change": label,
                 "gain": r.kernel_cycles(one, "rasterize") / r.kernel_cycles(many, "rasterize"), "command": many["command"]}
 
@@ -57,10 +57,10 @@ def of_memory(store, all_scenes):
     wanted = {(scene.name, label): [Run(scene, scene.views[0], machines.changed(SCALED, **change, **more), r.parted(1))
                                     for more in ({}, {"timing__dram__channels": scaling.CHANNELS})]
               for scene in all_scenes for label, change in FOR_MEMORY}
-    store.prepare([run for pair in wanted.values() for run in pair], TITLE)
+    store.prepare([run for pair in wanted.values() for run in pair])
 
     def row(scene, label):
-        one, two = store.all(wanted[scene, label], TITLE)
+        one, two = store.all(wanted[scene, label])
         return {"scene": scene, "change": label, "gain": r.frame_ms(one) / r.frame_ms(two), "command": two["command"]}
 
     return store.rows(wanted, row)
@@ -72,10 +72,10 @@ def of_gain(store, all_scenes):
                                           Run(scene, scene.views[0], machines.changed(machines.SCALED[core], **change) if change else
                                               machines.SCALED[core], r.parted(1))]
               for scene in all_scenes for core in machines.PROTOTYPES for label, change in FOR_GAIN}
-    store.prepare([run for pair in wanted.values() for run in pair], TITLE)
+    store.prepare([run for pair in wanted.values() for run in pair])
 
     def row(scene, core, label):
-        one, many = store.all(wanted[scene, core, label], TITLE)
+        one, many = store.all(wanted[scene, core, label])
         return {"scene": scene, "machine": f"`{machines.SCALED[core]}`", "change": label, "gain": r.frame_ms(one) / r.frame_ms(many),
                 "command": many["command"]}
 
@@ -88,10 +88,10 @@ def of_power(store, all_scenes):
                                             ("--exp", "table", "--energy"), 0 if clock == CLOCKS[0] else clock)
                                         for scene in all_scenes]
               for machine in machines.PROTOTYPES for label, change in FOR_POWER for clock in CLOCKS}
-    store.prepare([run for some in wanted.values() for run in some], TITLE)
+    store.prepare([run for some in wanted.values() for run in some])
 
     def row(machine, label, clock):
-        results = store.all(wanted[machine, label, clock], TITLE)
+        results = store.all(wanted[machine, label, clock])
         peaks = [max((stage["chip_watts"] for stage in result["energy"]["stages"]), key=lambda w: w["value"]) for result in results]
         worst = max(peaks, key=lambda w: w["value"])
         return {"machine": machine, "change": label, "clock": clock, "volts": results[0]["energy"]["volts"], "watts": worst,
@@ -104,10 +104,10 @@ def of_area(store, all_scenes):
     scene = all_scenes[0]
     wanted = {label: Run(scene, scene.views[0], machines.changed(machines.PROTOTYPES[0], **change) if change else
                          machines.PROTOTYPES[0], ("--exp", "table", "--energy")) for label, change in FOR_AREA}
-    store.prepare(wanted.values(), TITLE)
+    store.prepare(wanted.values())
 
     def row(label):
-        result, = store.all([wanted[label]], TITLE)
+        result, = store.all([wanted[label]])
         return {"change": label, "um2": result["energy"]["area"]["chip_um2"], "fps": result["time"]["fps"],
                 "scene": scene.name, "view": scene.views[0]}
 

@@ -21,10 +21,10 @@ def sweep(store, scene, view):
     """Cycles of each of the twelve choices on MACHINE. One is not clocked if its blending, at as many instructions as a core
     can fetch, would take longer than the fastest blending so far, and with the shortest rest of a frame so far longer than
     the fastest frame."""
-    counted = dict(zip(CHOICES, store.all([simt(scene, view, MACHINE, c, None) for c in CHOICES], "count")))
+    counted = dict(zip(CHOICES, store.all([simt(scene, view, MACHINE, c, None) for c in CHOICES])))
     rows = {c: {"tile": c[0], "group": c[1], "pairs": result["counts"]["pairs"],
                 "blend_instructions": r.stage_instructions(result, "blend"),
-                "picture_sha256": result["picture_sha256"]} for c, result in counted.items()}
+                "output_fnv1a64": result["output_fnv1a64"]} for c, result in counted.items()}
     cores = next(iter(counted.values()))["device"]["compute_units"]
     least = {c: rows[c]["blend_instructions"] / cores * machines.fetch_interval(MACHINE) for c in CHOICES}
     waiting = sorted(CHOICES, key=lambda c: rows[c]["blend_instructions"])
@@ -34,7 +34,7 @@ def sweep(store, scene, view):
         rest = min((row["frame_cycles"] - row["blend_cycles"] for row in clocked), default=0)
         waiting = [c for c in waiting if least[c] < max(blend, frame - rest)]
         batch, waiting = waiting[:store.jobs], waiting[store.jobs:]
-        for c, result in zip(batch, store.all([simt(scene, view, MACHINE, c) for c in batch], "sweep")):
+        for c, result in zip(batch, store.all([simt(scene, view, MACHINE, c) for c in batch])):
             rows[c].update(blend_cycles=r.stage_cycles(result, "blend"), frame_cycles=r.frame_cycles(result))
     return {"scene": scene.name, "view": view, "cores": cores, "rows": list(rows.values())}
 

@@ -29,10 +29,10 @@ def run_at(scene, view, machine, clock):
 
 def measure(store, all_scenes, _every_view):
     places = [(scene, view, m) for m in machines.PROTOTYPES for scene in all_scenes for view in scene.views]
-    store.prepare([run_at(s, v, m, c) for s, v, m in places for c in CLOCKS], TITLE)
+    store.prepare([run_at(s, v, m, c) for s, v, m in places for c in CLOCKS])
 
     def row(scene, view, machine):
-        results = store.all([run_at(scene, view, machine, c) for c in CLOCKS], TITLE)
+        results = store.all([run_at(scene, view, machine, c) for c in CLOCKS])
         times = [r.frame_ms(result) for result in results]
         a, b, off = fit(CLOCKS, times)
         return {"scene": scene.name, "view": view, "machine": machine, "clocks_mhz": CLOCKS, "frame_ms": times,

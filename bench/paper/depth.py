@@ -27,7 +27,7 @@ def wanted(scene):
 def rows_of(store, scene):
     rows = []
     for stop, options in STOPS:
-        results = {m: dict(zip(PARTS, store.all([run(scene, k, options, m) for k in PARTS], TITLE)))
+        results = {m: dict(zip(PARTS, store.all([run(scene, k, options, m) for k in PARTS])))
                    for m in MACHINES if m == MACHINES[0] or not options}
         whole = frames.floats(store.file(run(scene, 1, options, MACHINES[0]), ".pfm"))
         blends = results[MACHINES[0]][1]["total"]["counters"]["raster_blends"]
@@ -46,7 +46,7 @@ def rows_of(store, scene):
 
 
 def measure(store, all_scenes, _every_view):
-    store.prepare([run for scene in all_scenes for run in wanted(scene)], TITLE)
+    store.prepare([run for scene in all_scenes for run in wanted(scene)])
     return {"machines": MACHINES, "rows": [row for rows in store.rows([(store, scene) for scene in all_scenes], rows_of) for row in rows]}
 
 

@@ -21,11 +21,11 @@ def measure(store, all_scenes, _every_view):
     places = [(scene, view, m, f"{clock} MHz") for m in machines.PROTOTYPES for clock in CLOCKS for scene in all_scenes
               for view in scene.views]
     store.prepare([run(scene, view, m, clock) for m in machines.PROTOTYPES for clock in CLOCKS for scene in all_scenes
-                   for view in scene.views], TITLE)
+                   for view in scene.views])
 
     def row(scene, view, machine, at):
         clock = int(at.split()[0])
-        result, = store.all([run(scene, view, machine, clock)], TITLE)
+        result, = store.all([run(scene, view, machine, clock)])
         spent = result["energy"]
         peak = max(spent["stages"], key=lambda stage: stage["chip_watts"]["value"])
         return {"scene": scene.name, "view": view, "machine": machine, "clock": clock, "volts": spent["volts"],

@@ -20,13 +20,13 @@ def measure(store, all_scenes, _every_view):
     def run(machine, options, way):
         return Run(scene, view, machine, options, way[0], way[1])
 
-    store.all([run(m, o, w) for m in MACHINES for _, o in WORK for w in WAYS], TITLE)
+    store.all([run(m, o, w) for m in MACHINES for _, o in WORK for w in WAYS])
     rows = []
     for work, options in WORK:
         pictures, times = set(), {}
         for machine in MACHINES:
-            results = store.all([run(machine, options, w) for w in WAYS], TITLE)
-            pictures.update(result["picture_sha256"] for result in results)
+            results = store.all([run(machine, options, w) for w in WAYS])
+            pictures.update(result["output_fnv1a64"] for result in results)
             times[machine] = sorted({result["time"]["sum"]["cycles"] for result in results if "time" in result})
         rows.append({"work": work, "options": options, "runs": len(MACHINES) * len(WAYS), "pictures": len(pictures),
                      "cycles": times})

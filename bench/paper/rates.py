@@ -21,7 +21,7 @@ def in_turn(scene, machine):
 def _row(store, scene, view, prototype):
     scaled = machines.SCALED[prototype]
     whole, slow, large = store.all([raster(scene, view, prototype), raster(scene, view, prototype, SLOW),
-                                    raster(scene, view, scaled)], TITLE)
+                                    raster(scene, view, scaled)])
     rates = {}
     for pipeline, milliseconds in (("serial", r.frame_ms), ("overlapped", r.overlapped_ms)):
         rates[pipeline] = {"fps": 1e3 / milliseconds(whole), "slow_fps": 1e3 / milliseconds(slow),
@@ -33,7 +33,7 @@ def _row(store, scene, view, prototype):
 
 
 def _turn(store, scene, machine):
-    together, *alone = store.all([in_turn(scene, machine), *(raster(scene, v, machine) for v in scene.views)], TITLE)
+    together, *alone = store.all([in_turn(scene, machine), *(raster(scene, v, machine) for v in scene.views)])
     blend = sum(r.stage_cycles(result, "blend") for result in alone)
     whole = sum(map(r.frame_cycles, alone))
     serial = sum(map(r.frame_ms, alone))
@@ -46,7 +46,7 @@ def _turn(store, scene, machine):
 def measure(store, all_scenes, _every_view):
     places = [(store, scene, view, m) for m in machines.PROTOTYPES for scene in all_scenes for view in scene.views]
     store.prepare([run for _, s, v, m in places
-                   for run in (raster(s, v, m), raster(s, v, m, SLOW), raster(s, v, machines.SCALED[m]))], TITLE)
+                   for run in (raster(s, v, m), raster(s, v, m, SLOW), raster(s, v, machines.SCALED[m]))])
     return {"rows": store.rows(places, _row),
             "turns": store.rows([(store, scene, m) for m in machines.PROTOTYPES for scene in all_scenes], _turn)}
 

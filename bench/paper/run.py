@@ -10,7 +10,6 @@ exit codes: 0 done, 1 a run failed or two pictures differ that should not, 2 usa
 """
 
 import argparse
-import json
 import os
 import sys
 

@@ -2,27 +2,21 @@
 
 import array
 import collections
-import concurrent.futures
-import glob
-import hashlib
+import dataclasses
 import json
 import os
 import re
-import subprocess
 import sys
-import tempfile
-import threading
-import time
 import zipfile
 from dataclasses import dataclass
 
-import kept
 import machines
 import scenes
+import study
 
 
 class Failed(Exception):
-    """A run ended with an error, in one line."""
+    """A result is not what it has to be, in one line."""
 
 
 class Missing(Exception):
@@ -39,8 +33,6 @@ class Run:
     clock: int = 0           # MHz; 0: the machine's own, None: no clock
     threads: int = 0         # of the host; 0: as the machine has it
     picture: bool = False    # keep it
-    output = "out.pfm"       # what splat writes
-    any_build = False        # whether one that another build made is as good
 
     def name(self):
         parts = [self.scene.name, self.view, self.machine, *self.options]
@@ -48,18 +40,10 @@ class Run:
         parts += [f"{self.threads}threads"] if self.threads else []
         return file_name(parts)
 
-    def inputs(self):
-        """The files and folders that it reads, by what they are."""
-        return {"scene": self.scene.path, "cameras": self.scene.cameras}
-
-    def beside(self):
-        """The endings of files that are kept beside the result."""
-        return [".pfm"] if self.picture else []
-
-    def arguments(self, output, report):
+    def words(self, scene, cameras, out):
         timed = () if self.clock is None else ("--clock", str(self.clock)) if self.clock else ("--time",)
-        return ["splat", "render", self.scene.path, "--cameras", self.scene.cameras, "--view", self.view,
-                "-o", output, "--json", report, *timed, *self.options]
+        return ("splat", "render", scene, "--cameras", cameras, "--view", self.view, "-o", out + ".pfm", "--json", out + ".json",
+                *timed, *self.options)
 
     def config(self):
         """The machine, as VORION_CONFIG takes it."""
@@ -68,10 +52,13 @@ class Run:
             config["host_threads"] = self.threads
         return config
 
+    def point(self):
+        return study.Point(self.name(), self.words("{scene}", "{cameras}", "{out}"), {"scene": self.scene.path, "cameras": self.scene.cameras},
+                           {"VORION_CONFIG": json.dumps(self.config())}, (".pfm",) if self.picture else ())
+
     def command(self):
         """What to type in the root of the repository."""
-        return (f"VORION_CONFIG={machines.shown(self.machine)} "
-                + " ".join(self.arguments(self.output, "out.json")))
+        return f"VORION_CONFIG={machines.shown(self.machine)} " + " ".join(self.words(self.scene.path, self.scene.cameras, "out"))
 
     @staticmethod
     def trimmed(report):
@@ -79,16 +66,6 @@ class Run:
         if timed := report.get("time"):
             trim(timed)
         return report
-
-
-def _content(output):
-    """A hash of what was written: the file, or one of each view with the view's name in front of its ending."""
-    digest = hashlib.sha256()
-    base, ending = os.path.splitext(output)
-    for file in [output] if os.path.exists(output) else sorted(glob.glob(glob.escape(base) + ".*" + ending)):
-        with open(file, "rb") as f:
-            digest.update(f.read())
-    return digest.hexdigest()
 
 
 def clock_versions(result):
@@ -115,108 +92,56 @@ class Runs:
 
     def __init__(self, folder, jobs, keep, only_kept):
         self.folder, self.jobs, self.keep, self.only_kept = folder, jobs, keep, only_kept
-        self.build = kept.programs()
+        self.found = {}  # results by point's name, without what no section reads
         self.begin_section()
-        self.lock = threading.Lock()
-        os.makedirs(os.path.join(folder, "runs"), exist_ok=True)
+        os.makedirs(folder, exist_ok=True)
+        if os.path.isdir(earlier := os.path.join(folder, "runs")):
+            print(f"{earlier}: results of an earlier paper.sh, not used: delete them", file=sys.stderr)
 
-    def file(self, run, suffix):
-        return os.path.join(self.folder, "runs", run.name() + suffix)
+    def file(self, run, ending):
+        return study.file_of(self.folder, run.point(), ending)
 
-    def kept(self, run):
-        """The result of an earlier run, or None."""
-        try:
-            with open(self.file(run, ".json"), encoding="utf-8") as f:
-                result = json.load(f)
-        except FileNotFoundError:
-            return None
-        other_build = result["build"] != self.build and not self.keep and not run.any_build
-        if other_build or not all(os.path.exists(self.file(run, ending)) for ending in run.beside()):
-            return None
-        if kept.differences(result.get("made_from"), self.origin(run)):
-            kept.say_stale(self.file(run, ".json"), result.get("made_from"), self.origin(run))
-            for ending in run.beside():  # a training run would go on from its checkpoint
-                os.remove(self.file(run, ending))
-            return None
-        return result
+    def measured(self, points, trimmed=lambda report: report):
+        """The results of some points, in order; those that are missing are measured, or else raise Missing."""
+        points = [dataclasses.replace(point, any_build=point.any_build or self.keep) for point in points]
+        new = list({point.name: point for point in points if point.name not in self.found}.values())
+        results = study.kept(new, self.folder) if self.only_kept else study.measure(new, self.folder, self.jobs)
+        for point, result in zip(new, results, strict=True):
+            if result is None:
+                raise Missing(point.name)
+            self.found[point.name] = {**result, "report": trimmed(result["report"])}
+        for point in points:
+            result = self.found[point.name]
+            self.builds.add(result["made_from"]["programs"])
+            self.seconds[point.name] = result["seconds"]
+        return [self.found[point.name] for point in points]
 
-    @staticmethod
-    def origin(run):
-        """What a run is made from beside the programs, as its result says."""
-        return {**{what: kept.content(path) for what, path in run.inputs().items()}, "machine": run.config(),
-                "command": run.arguments("OUTPUT", "REPORT")}
-
-    def execute(self, run):
-        config = run.config()
-        with tempfile.TemporaryDirectory(dir=self.folder) as folder:
-            output, report = os.path.join(folder, run.output), os.path.join(folder, "out.json")
-            start = time.monotonic()
-            done = subprocess.run(run.arguments(output, report), cwd=scenes.ROOT, capture_output=True, text=True,
-                                  env=dict(os.environ, VORION_CONFIG=json.dumps(config)), check=False)
-            if done.returncode != 0:
-                lines = done.stderr.strip().splitlines() or [f"splat ended with {done.returncode}"]
-                raise Failed(f"{run.name()}: {lines[-1]}")
-            with open(report, encoding="utf-8") as f:
-                result = run.trimmed(json.load(f))
-            result.pop("picture", None)
-            result["picture_sha256"] = _content(output)
-            result["channels"] = machines.channels(run.machine)
-            result.update(build=self.build, made_from=self.origin(run), seconds=time.monotonic() - start, command=run.command())
-            if ".pfm" in run.beside():
-                os.replace(output, self.file(run, ".pfm"))
-            with open(report, "w", encoding="utf-8") as f:
-                json.dump(result, f)
-            os.replace(report, self.file(run, ".json"))
-        return result
-
-    def all(self, wanted, title):
-        """The results of some runs, in order; those that are missing are run, with a line each, or else raise Missing."""
-        wanted = list(wanted)
-        results = {run: self.kept(run) for run in wanted}
-        missing = [run for run, result in results.items() if result is None]
-        if missing and self.only_kept:
-            raise Missing(missing[0].name())
-        count = 0
-
-        def one(run):
-            nonlocal count
-            result = self.execute(run)
-            with self.lock:
-                count += 1
-                print(f"{title} [{count}/{len(missing)}] {run.name()}: {result['seconds']:.1f} s", file=sys.stderr,
-                      flush=True)
-            return result
-
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            futures = {run: pool.submit(one, run) for run in missing}
-            try:
-                for run, future in futures.items():
-                    results[run] = future.result()
-            except BaseException:
-                pool.shutdown(cancel_futures=True)
-                raise
-        for run, result in results.items():
-            self.builds.add(result["build"])
-            self.clocks |= clock_versions(result)
-            self.seconds[run.name()] = result["seconds"]
-        return [results[run] for run in wanted]
+    def all(self, wanted):
+        """The reports of some runs, in order, with what the sections know besides; as measured(). All are of one kind."""
+        wanted, reports = list(wanted), []
+        results = self.measured([run.point() for run in wanted], wanted[0].trimmed) if wanted else []
+        for run, result in zip(wanted, results, strict=True):
+            self.clocks |= clock_versions(result["report"])
+            reports.append({**result["report"], "output_fnv1a64": result["output_fnv1a64"], "command": run.command(),
+                            "channels": machines.channels(run.machine)})
+        return reports
 
     def begin_section(self):
         """Forgets what the section before asked for."""
         self.builds, self.clocks, self.left_out, self.seconds = set(), set(), [], {}
 
-    def prepare(self, wanted, title):
+    def prepare(self, wanted):
         """Makes all runs that a section will ask for, several at a time."""
         if not self.only_kept:
-            self.all(wanted, title)
+            self.all(wanted)
 
-    def those_there(self, wanted, title):
+    def those_there(self, wanted):
         """The results of some runs, by what `wanted` has them under; without those that all() would raise Missing for, which
         are named as left out."""
         results = {}
         for key, run in wanted.items():
             try:
-                results[key], = self.all([run], title)
+                results[key], = self.all([run])
             except Missing as missing:
                 self.left_out.append(str(missing))
         return results
@@ -250,21 +175,10 @@ class Runs:
 
     def lengths(self, scene, view):
         """Entries of every tile's list, from the pairs that a render sorts."""
-        out = os.path.join(self.folder, "runs", f"{scene.name}-{view}-lengths.json")
-        made_from = kept.origin({"scene": scene.path, "cameras": scene.cameras}, ["--view", view])
-        if self.only_kept and not kept.is_kept([out], made_from):
-            raise Missing(f"{scene.name}-{view}-lengths")
-
-        def make():
-            with tempfile.TemporaryDirectory(dir=self.folder) as folder:
-                pairs = os.path.join(folder, "pairs.npz")
-                subprocess.run(["splat", "render", scene.path, "--cameras", scene.cameras, "--view", view, "-o",
-                                os.path.join(folder, "out.pfm"), "--dump-pairs", pairs], cwd=scenes.ROOT, check=True,
-                               stdout=subprocess.DEVNULL)
-                lengths = collections.Counter(_column(pairs, "tile"))
-            return [lengths[tile] for tile in range(tiles(scene, view))]
-
-        return kept.result(out, made_from, make)
+        point = study.render(f"{scene.name}-{view}-lengths", scene, view, "--dump-pairs", "{out}.npz", keep=(".npz",))
+        self.measured([point])
+        lengths = collections.Counter(_column(study.file_of(self.folder, point, ".npz"), "tile"))
+        return [lengths[tile] for tile in range(tiles(scene, view))]
 
 
 def tiles(scene, view, side=64):

@@ -88,11 +88,11 @@ def rows_of(store, scene):
     """A row for each number of parts."""
     view = scene.views[0]
     lengths = store.lengths(scene, view)
-    whole, widest = store.all([run(scene, 1, machine_of(n)) for n in (RASTERIZERS_A_MEMORY, SIMULATED[-1])], TITLE)
+    whole, widest = store.all([run(scene, 1, machine_of(n)) for n in (RASTERIZERS_A_MEMORY, SIMULATED[-1])])
     rows = []
     for parts, counts in PARTS.items():
         try:
-            results = dict(zip(counts, store.all([run(scene, parts, machine_of(n)) for n in counts], TITLE)))
+            results = dict(zip(counts, store.all([run(scene, parts, machine_of(n)) for n in counts])))
         except r.Missing as missing:
             store.left_out.append(str(missing))
             continue
@@ -107,7 +107,7 @@ def rows_of(store, scene):
 
 
 def memory_row(store, scene):
-    one, two = store.all(more_memory(scene), TITLE)
+    one, two = store.all(more_memory(scene))
     microseconds = r.frame_cycles(one) / one["time"]["sum"]["clock_mhz"]
     return {"scene": scene.name, "view": scene.views[0], "machine": SCALED,
             "blend_gain": r.stage_cycles(one, "blend") / r.stage_cycles(two, "blend"),
@@ -118,8 +118,7 @@ def memory_row(store, scene):
 
 def measure(store, all_scenes, _every_view):
     store.prepare([one for scene in all_scenes for one in
-                   (*(run(scene, k, machine_of(n)) for k, counts in PARTS.items() for n in counts), *more_memory(scene))],
-                  TITLE)
+                   (*(run(scene, k, machine_of(n)) for k, counts in PARTS.items() for n in counts), *more_memory(scene))])
     places = [(store, scene) for scene in all_scenes]
     return {"rows": [row for rows in store.rows(places, rows_of) for row in rows],
             "memory": store.rows(places, memory_row)}

@@ -53,14 +53,14 @@ def measure(store, all_scenes, _every_view):
     best = sorted({c for s in swept["sweeps"] for c in candidates(s)})
     places = [(scene, view, m) for m in machines.PROTOTYPES for scene in all_scenes for view in scene.views]
     store.prepare([run for s, v, m in places
-                   for run in (raster(s, v, m), *(simt(s, v, m, c) for c in best), official(s, v, m))], TITLE)
+                   for run in (raster(s, v, m), *(simt(s, v, m, c) for c in best), official(s, v, m))])
 
     def row(scene, view, machine):
-        with_it, = store.all([raster(scene, view, machine)], TITLE)
-        without = store.those_there({c: simt(scene, view, machine, c) for c in best}, TITLE)
+        with_it, = store.all([raster(scene, view, machine)])
+        without = store.those_there({c: simt(scene, view, machine, c) for c in best})
         if not without:
             raise r.Missing(f"{scene.name}-{view}-{machine}-path-simt")
-        step_by_step = store.those_there({"official": official(scene, view, machine)}, TITLE)
+        step_by_step = store.those_there({"official": official(scene, view, machine)})
         return {"scene": scene.name, "view": view, "machine": machine,
                 **compared(with_it, without, step_by_step.get("official"))}
 

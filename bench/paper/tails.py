@@ -43,10 +43,10 @@ def measure(store, all_scenes, _every_view):
         return [Run(scene, view, MACHINE, ("--path", "raster")),
                 *(Run(scene, view, MACHINE, ("--path", "raster", "--pixel-unit", rule)) for rule in RULES)]
 
-    store.prepare([run for s, v in places for run in runs_of(s, v)], TITLE)
+    store.prepare([run for s, v in places for run in runs_of(s, v)])
 
     def row(scene, view):
-        results = store.all(runs_of(scene, view), TITLE)
+        results = store.all(runs_of(scene, view))
         base = results[0]
         points = []
         for rule, result in zip(("off", *RULES), results):
@@ -56,7 +56,7 @@ def measure(store, all_scenes, _every_view):
                            "tails": result["total"]["counters"]["raster_tails"],
                            "throughput": r.stage_cycles(base, "blend") / r.stage_cycles(result, "blend"),
                            "frame_throughput": r.frame_ms(base) / r.frame_ms(result),
-                           "same_picture": result["picture_sha256"] == base["picture_sha256"],
+                           "same_picture": result["output_fnv1a64"] == base["output_fnv1a64"],
                            "command": result["command"]})
         quarter = next(p for p in points if p["rule"] == QUARTER)
         share = (points[0]["on_lists"] - quarter["on_lists"]) / points[0]["rasterizers_busy"]

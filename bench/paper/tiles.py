@@ -1,9 +1,7 @@
 """Gaussian invocations by tile size, and how soon pixels are full: counts of the scenes, without a machine."""
 
-import os
-
 import invocations
-import kept
+from runs import Missing
 from writing import chart, paragraph, table
 
 TITLE = "Tiles and occlusion"
@@ -24,11 +22,10 @@ def measure(store, all_scenes, _every_view, widths=invocations.WIDTHS):
         for view in scene.views:
             row = {"scene": scene.name, "view": view, "fewer": {s: {} for s in invocations.SUPPORTS}}
             for width in widths:
-                folder = os.path.join(store.folder, "analyses")
-                if store.only_kept and not kept.is_kept([invocations.file_of(folder, scene, view, width)],
-                                                        invocations.origin_of(scene, view, width)):
+                try:
+                    found = store.measured([invocations.point(scene, view, width)])[0]["report"]
+                except Missing:
                     continue
-                found = invocations.analysis(folder, scene, view, width)
                 for support in invocations.SUPPORTS:
                     pairs = found["invocations_by_support"][support]
                     row["fewer"][support][str(width)] = 1 - pairs["64"] / pairs["16"] if pairs["16"] else None

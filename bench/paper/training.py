@@ -1,6 +1,7 @@
 """Training: iterations with the rasterizer and by kernels alone, by stage, by clock and by rasterizers."""
 
 import dataclasses
+import json
 import math
 import os
 import random
@@ -12,6 +13,7 @@ import machines
 import runs as r
 import scaling
 import scenes
+import study
 from writing import chart, mega, paragraph, table, terms
 
 TITLE = "Training"
@@ -132,34 +134,28 @@ class State:
     capture: Capture
     iterations: int
     folder: str
-    output = "out.ply"
-    any_build = True
 
     def name(self):
         return r.file_name([self.capture.name, "train", str(self.iterations)])
 
+    def words(self, kept, out):
+        return ("splat", "train", self.capture.path, *self.capture.options, "--downscale", str(self.capture.scales[0]), "--iterations",
+                str(self.iterations), "--checkpoint", kept + ".checkpoint", "--checkpoint-every", "50", "--resume", "-o", out + ".ply",
+                "--json", out + ".json")
+
+    def point(self):
+        return study.Point(self.name(), self.words("{kept}", "{out}"), {"capture": self.capture.source},
+                           {"VORION_CONFIG": json.dumps(machines.config(self.machine))}, (".checkpoint",), any_build=True)
+
     def checkpoint(self):
-        return os.path.relpath(os.path.join(self.folder, "runs", self.name() + ".checkpoint"), scenes.ROOT)
+        return os.path.relpath(study.file_of(self.folder, self.point(), ".checkpoint"), scenes.ROOT)
 
-    def inputs(self):
-        return {"capture": self.capture.source}
-
-    def beside(self):
-        return [".checkpoint"]
-
-    def arguments(self, output, report):
-        return ["splat", "train", self.capture.path, *self.capture.options, "--downscale", str(self.capture.scales[0]), "--iterations", str(self.iterations),
-                "--checkpoint", self.checkpoint(), "--checkpoint-every", "50", "--resume", "-o", output, "--json", report]
+    def command(self):
+        return " ".join(self.words(self.checkpoint().removesuffix(".checkpoint"), "out"))
 
     @property
     def machine(self):
         return machines.PROTOTYPES[0]
-
-    def config(self):
-        return machines.config(self.machine)
-
-    def command(self):
-        return " ".join(self.arguments(self.output, "out.json"))
 
     @staticmethod
     def trimmed(report):
@@ -174,8 +170,6 @@ class Timed:
     machine: str
     options: tuple
     clock: int = 0  # MHz; 0: the machine's own
-    output = "out.ply"
-    any_build = False
 
     def iterations(self):
         return TIMED if self.scale == self.state.capture.scales[0] and "--simt-sums" not in self.options else 1
@@ -183,17 +177,15 @@ class Timed:
     def name(self):
         return r.file_name([self.state.name(), f"by{self.scale}", self.machine, *self.options, *([f"{self.clock}MHz"] if self.clock else [])])
 
-    def inputs(self):
-        return {"capture": self.state.capture.source, "state": self.state.checkpoint()}
+    def words(self, state, out):
+        capture = self.state.capture
+        return ("splat", "train", capture.path, *capture.options, "--downscale", str(self.scale), "--from", state,
+                "--iterations", str(self.state.iterations + self.iterations()), "--time", "--time-every", "1", "--energy", *self.options,
+                "-o", out + ".ply", "--json", out + ".json")
 
-    def beside(self):
-        return []
-
-    def arguments(self, output, report):
-        state = self.state
-        return ["splat", "train", state.capture.path, *state.capture.options, "--downscale", str(self.scale), "--from", state.checkpoint(),
-                "--iterations", str(state.iterations + self.iterations()), "--time", "--time-every", "1", "--energy", *self.options,
-                "-o", output, "--json", report]
+    def point(self):
+        return study.Point(self.name(), self.words("{state}", "{out}"), {"capture": self.state.capture.source, "state": self.state.checkpoint()},
+                           {"VORION_CONFIG": json.dumps(self.config())})
 
     def config(self):
         config = machines.config(self.machine)
@@ -203,7 +195,7 @@ class Timed:
 
     def command(self):
         setting = f"VORION_SET=timing.clock_mhz={self.clock} " if self.clock else ""
-        return f"{setting}VORION_CONFIG={machines.shown(self.machine)} " + " ".join(self.arguments(self.output, "out.json"))
+        return f"{setting}VORION_CONFIG={machines.shown(self.machine)} " + " ".join(self.words(self.state.checkpoint(), "out"))
 
     @staticmethod
     def trimmed(report):
@@ -353,12 +345,12 @@ def _on(store, state, scale, prototype, choices):
     """The rows of a prototype, and the results of its raster runs on it and on the scaled machine of its core."""
     with_it, scaled, slow = store.all(
         [raster(state, scale, prototype), raster(state, scale, machines.SCALED[prototype]),
-         raster(state, scale, prototype, CLOCKS[0])], TITLE)
-    without = store.those_there({c: simt(state, scale, prototype, c) for c in choices}, TITLE)
+         raster(state, scale, prototype, CLOCKS[0])])
+    without = store.those_there({c: simt(state, scale, prototype, c) for c in choices})
     large = summary(scaled)
     is_smallest = scale == state.capture.scales[0]
     others = store.those_there({(sums, c): summed(state, scale, prototype, sums, c) for sums, tried in OTHER_SUMS.items()
-                                if choices and (is_smallest or sums not in ONLY_SMALLEST) for c in tried}, TITLE)
+                                if choices and (is_smallest or sums not in ONLY_SMALLEST) for c in tried})
     row = compared(with_it, without)
     return {**row, "slow_its": 1e3 / mean(slow, r.frame_ms),
             "slow_command": slow["command"],
@@ -372,7 +364,7 @@ def row_of(store, capture, scale, iterations):
     other and at the other scales."""
     iterations = capture.after or iterations
     state = State(capture, iterations, store.folder)
-    trained, = store.all([state], TITLE)
+    trained, = store.all([state])
     first, *others = machines.PROTOTYPES
     at_first, with_it, scaled = _on(store, state, capture.scales[0], first, () if capture.after else CHOICES)
     best, found = () if capture.after else _best(at_first), at_first
@@ -385,7 +377,7 @@ def row_of(store, capture, scale, iterations):
             row["machines"][machine] = _on(store, state, scale, machine, best)[0]
         except r.Missing as missing:
             store.left_out.append(str(missing))
-    single, = store.all([raster(state, scale, "1-rasterizers")], TITLE)
+    single, = store.all([raster(state, scale, "1-rasterizers")])
     row.update(energy_of={key: with_it["timed"][0]["energy"][key] for key in ("technology", "volts")},
                largest=largest(single, scaled), large_of=machines.SCALED[first], density=density(trained, with_it))
     return row

@@ -65,6 +65,12 @@ std::string programFile(const std::string &Name) {
   return fs::read_symlink("/proc/self/exe").replace_filename(Name);
 }
 
+/// Of a file, or of all files of a folder.
+Expected<std::string> hashPath(const std::string &Path) {
+  std::error_code Ignored;
+  return fs::is_directory(Path, Ignored) ? hashScene(Path) : hashFile(Path);
+}
+
 /// What points are made from. A file that several read is hashed once.
 class Provenances {
 public:
@@ -81,9 +87,7 @@ Expected<std::string> Provenances::hashOf(const std::string &Path) {
   std::string &Hash = Hashes[Path];
   if (!Hash.empty())
     return Hash;
-  std::error_code Ignored;
-  auto Found =
-      fs::is_directory(Path, Ignored) ? hashScene(Path) : hashFile(Path);
+  auto Found = hashPath(Path);
   if (Found)
     Hash = *Found;
   return Found;
@@ -147,7 +151,7 @@ bool CommandRun::hasFiles(const Json &Measured) const {
   return Measured.contains("refused") ||
          std::ranges::all_of(C.Keep, [&](const std::string &Ending) {
            const auto At = Files.find(Ending);
-           const auto Hash = hashFile(Kept + Ending);
+           const auto Hash = hashPath(Kept + Ending);
            return At != Files.end() && Hash && *Hash == At->second;
          });
 }
@@ -157,7 +161,7 @@ void CommandRun::forget() const {
   if (!fs::remove(Kept + ".json", Ignored))
     return; // of a run that was broken off, which may go on
   for (const std::string &Ending : C.Keep)
-    fs::remove(Kept + Ending, Ignored);
+    fs::remove_all(Kept + Ending, Ignored);
 }
 
 Expected<ProcessEnd> CommandRun::run() const {
@@ -180,7 +184,8 @@ Expected<Json> CommandRun::outcome() const {
   std::vector<std::string> Written;
   for (const auto &Entry : fs::directory_iterator(Work))
     if (const std::string File = Entry.path().filename();
-        File.starts_with("out.") && File != "out.json")
+        Entry.is_regular_file() && File.starts_with("out.") &&
+        File != "out.json")
       Written.push_back(File);
   std::ranges::sort(Written);
   std::string All;
@@ -192,9 +197,11 @@ Expected<Json> CommandRun::outcome() const {
   }
   Json Outcome{{"output_fnv1a64", fnv1a64(All)}, {"kept", Json::object()}};
   for (const std::string &Ending : C.Keep) {
-    if (fs::exists(Work + "/out" + Ending))
-      fs::rename(Work + "/out" + Ending, Kept + Ending);
-    const auto Hash = hashFile(Kept + Ending);
+    if (const std::string Made = Work + "/out" + Ending; fs::exists(Made)) {
+      fs::remove_all(Kept + Ending);
+      fs::rename(Made, Kept + Ending);
+    }
+    const auto Hash = hashPath(Kept + Ending);
     if (!Hash)
       return Hash.error();
     Outcome["kept"][Ending] = *Hash;

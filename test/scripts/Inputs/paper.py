@@ -111,13 +111,13 @@ class Store:
     def __init__(self, instructions, cycles):
         self.instructions, self.cycles, self.clocked = instructions, cycles, []
 
-    def all(self, wanted, _title):
+    def all(self, wanted):
         return [self.result(run) for run in wanted]
 
     def result(self, run):
         choice = (int(run.options[3]), int(run.options[5]))
         blend = self.instructions[choice]
-        result = {"counts": {"pairs": 1}, "picture_sha256": "", "device": {"compute_units": 8},
+        result = {"counts": {"pairs": 1}, "output_fnv1a64": "", "device": {"compute_units": 8},
                   "stages": [{"name": "blend", "kernels": [{"counters": {"warp_instructions": blend}}]}],
                   "total": {"counters": {"warp_instructions": blend + 8}}}
         if run.clock is not None:
@@ -149,7 +149,7 @@ def check_names():
                               ("--pixel-unit", "last:1/2"))
               for clock in (None, 0, 100) for threads in (0, 1)]
     assert len({run.name() for run in wanted}) == len(wanted)
-    assert "--time" in wanted[2].arguments("p", "r") and "--time" not in wanted[0].arguments("p", "r")
+    assert "--time" in wanted[2].point().command and "--time" not in wanted[0].point().command
 
 
 def check_machines():
