@@ -26,9 +26,9 @@ class ExpUnit<string choice, int number, string bound, string doc>
     : LaneUnit<"VR_EXP_", choice, number, "Exponential unit: " # doc # "."> {
   string MaxRelativeError = bound;    // for results of at least 2^-125
   // What the cores' path is compiled with, if it has the unit: the file of
-  // apps/splat/kernels/, and a macro that chooses the unit in it.
+  // apps/splat/kernels/, and the degree of the polynomial if it is units.cl.
   string Kernel = "units.cl";
-  string Define = "";
+  int KernelDegree = 0;
 }
 class TableExpUnit<string choice, int number, string bound, int entries, int startBits>
     : ExpUnit<choice, number, bound, "table of " # entries # " entries"> {
@@ -40,7 +40,7 @@ class TableExpUnit<string choice, int number, string bound, int entries, int sta
 }
 class PolynomialExpUnit<int degree, int number, string bound, string steps>
     : ExpUnit<"poly" # degree, number, bound, "base-2 polynomial of degree " # degree> {
-  let Define = "EXP_DEGREE=" # degree;
+  let KernelDegree = degree;
   let Latency = !add(degree, 2);
   let Multipliers = !add(degree, 1);
   let Adders = !add(degree, 1);

@@ -48,9 +48,9 @@ OBSERVED = ("matmul", "radixsort")  # what is run with and without observers bui
 
 # What render/Plan.cpp compiles the projection with by default, for a scene with all bands of colour.
 PROJECT_DEFINES = ("-DTILE_SIZE=64", "-DSUPPORT_EXACT", "-DDILATION=0.3f", "-DALPHA_CUTOFF=1.0f",
-                   "-DKEEP_DEPTH(z)=((z)>0.2f)", "-DANTIALIAS_FLOOR=2.5e-5f", "-DUSE_SH1=1", "-DUSE_SH2=1", "-DUSE_SH3=1",
+                   "-DNEAR_LIMIT=0.2f", "-DNEAR_IS_LEFT_OUT", "-DUSE_SH1=1", "-DUSE_SH2=1", "-DUSE_SH3=1",
                    "-DUSE_VIEW_COLOR=1", "-DUSE_ANTIALIAS=0", "-DUSE_NEAR_PLANE=1", "-DUSE_FIELD_OF_VIEW=1",
-                   "-DUSE_FAINT=1", "-DUSE_INTERSECT_TAGS=1", "-DCONSTANTS=__local", "-DVIEW_SPACE=__local")
+                   "-DUSE_FAINT=1", "-DUSE_INTERSECT_TAGS=1")
 DEVICE_COUNT, SCALAR_COUNT = 1 << 19, 1 << 14  # Gaussians
 GEOMETRY_PLANES, SH_PLANES, RECORD_BYTES, SEEN_BYTES, LOCAL_BYTES = 11, 48, 48, 36, 2048
 CORES = 64

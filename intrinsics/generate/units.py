@@ -104,11 +104,7 @@ def splat(records):
     exps = units(records, "Exp")
     yield from function("ExpUnit", "kernelOf", "The kernels' file that the cores' path takes it from; empty where it "
                         "has none.", "Kernel", exps)
-    yield from function("ExpUnit", "defineOf", "The macro that chooses it there.", "Define", exps)
-    macros = dict.fromkeys(u.Define.split("=")[0] for u in exps if u.Define)
-    yield "/// The names of these macros."
-    yield "inline constexpr std::array<std::string_view, {}> ExpMacros{{{}}};\n".format(
-        len(macros), ", ".join(f'"{m}"' for m in macros))
+    yield from function("ExpUnit", "kernelDegree", "EXP_DEGREE of that file; 0 where it has none.", "KernelDegree", exps)
     yield from function("BlendUnit", "significandBits", "Of a multiplication's operands.", "SignificandBits",
                         units(records, "Blend"))
     yield "} // namespace vorion::splat"

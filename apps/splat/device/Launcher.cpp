@@ -130,7 +130,7 @@ void Launcher::build(const ProgramSpec &Spec) {
   if (Shared) {
     const auto Built = Shared->find({*Source, Options});
     if (Built != Shared->end()) {
-      Programs[Spec.Name] = Built->second;
+      Programs[Spec.File] = Built->second;
       return;
     }
   }
@@ -140,11 +140,11 @@ void Launcher::build(const ProgramSpec &Spec) {
     Status = Program.build(Dev.handle(), Options.c_str());
   if (Status != CL_SUCCESS) {
     if (Status == CL_OUT_OF_HOST_MEMORY) {
-      Failure = clError("compiling kernel program " + Spec.Name, Status);
+      Failure = clError("compiling kernel program " + Spec.name(), Status);
       return;
     }
     BuildLog = Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Dev.handle());
-    if (auto File = fileError(Spec.Name, BuildLog)) {
+    if (auto File = fileError(Spec.name(), BuildLog)) {
       Failure = std::move(File);
       BuildLog.clear(); // it says the same
       return;
@@ -154,11 +154,11 @@ void Launcher::build(const ProgramSpec &Spec) {
         Error{KernelFolder,
               fmt::format("kernel program '{}' does not compile for {} "
                           "({}), expected valid OpenCL C",
-                          Spec.Name, Dev.name(), statusName(Status)),
+                          Spec.name(), Dev.name(), statusName(Status)),
               KernelFolder.empty() ? ExitCode::Internal : ExitCode::InputFile};
     return;
   }
-  Programs[Spec.Name] = Program;
+  Programs[Spec.File] = Program;
   BuiltKeys.push_back(keyOf(*Source, Options));
   if (Shared)
     Shared->emplace(std::pair(std::move(*Source), Options), Program);

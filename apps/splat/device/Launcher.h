@@ -3,6 +3,8 @@
 
 #include "device/BuildRecord.h"
 #include "device/Device.h"
+#include "device/Launch.h"
+#include "device/Program.h"
 #include "device/Stage.h"
 
 #include <atomic>
@@ -15,20 +17,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace vorion::splat {
-
-/// One program: its kernel source, which includes what it uses, and the macros
-/// it is built with.
-struct ProgramSpec {
-  std::string Name;
-  std::string File;                 ///< of kernels/
-  std::vector<std::string> Defines; ///< "NAME" or "NAME=value"
-
-  bool operator==(const ProgramSpec &) const = default;
-};
 
 /// Programs that were built, by source and options, for launchers of one device
 /// to share.
@@ -85,7 +78,7 @@ public:
   /// Ends the last stage and gives all of them.
   std::vector<StageReport> takeStages();
 
-  /// Builds \p Spec; \c run finds it by its name.
+  /// Builds \p Spec in place of what was built of the same file.
   void build(const ProgramSpec &Spec);
 
   /// Whether \p Spec was built on this computer and ran, now or before.
@@ -93,26 +86,27 @@ public:
   /// Marks what was built as having run.
   void recordBuilds() const;
 
-  /// Runs kernel \p Kernel of program \p Program and waits for it.
-  template <typename... Args>
-  void run(const std::string &Program, const char *Kernel,
-           const cl::NDRange &Global, const cl::NDRange &Local,
-           const Args &...Arguments) {
+  /// Runs a kernel of a program that was built, and waits for it: \p Global
+  /// work-items in groups of \p Local.
+  template <KernelLaunch Kernel>
+  void run(const cl::NDRange &Global, const cl::NDRange &Local,
+           const Kernel &Launch) {
     if (Failure)
       return;
     cl_int Status = CL_SUCCESS;
-    cl::Kernel K(Programs.at(Program), Kernel, &Status);
-    cl_uint Index = 0;
-    const auto Set = [&](const auto &Argument) {
-      if (Status == CL_SUCCESS)
-        Status = K.setArg(Index++, Argument);
-    };
-    (Set(Arguments), ...);
+    cl::Kernel K(Programs.at(Launch.ProgramFile), Launch.KernelName, &Status);
+    std::apply(
+        [&](const auto &...Arguments) {
+          cl_uint Index = 0;
+          (set(K, Index, Arguments, Status), ...);
+        },
+        Launch.arguments());
     if (Status != CL_SUCCESS) {
-      Failure = clError(std::string("preparing kernel ") + Kernel, Status);
+      Failure =
+          clError(std::string("preparing kernel ") + Launch.KernelName, Status);
       return;
     }
-    launch(K, Kernel, Global, Local);
+    launch(K, Launch.KernelName, Global, Local);
   }
 
   /// What a user can make smaller where the device's memory does not suffice;
@@ -142,6 +136,22 @@ public:
   const Device &device() const { return Dev; }
 
 private:
+  /// Sets argument \p Index of \p K, and counts it, unless \p Status is an
+  /// error, which it becomes where OpenCL refuses.
+  /// @{
+  template <typename T>
+  static void set(cl::Kernel &K, cl_uint &Index, const Argument<T> &A,
+                  cl_int &Status) {
+    if (Status == CL_SUCCESS)
+      Status = K.setArg(Index++, A.value());
+  }
+  template <typename T>
+  static void set(cl::Kernel &K, cl_uint &Index, const ArgumentByChoice<T> &A,
+                  cl_int &Status) {
+    if (A)
+      set(K, Index, *A, Status);
+  }
+  /// @}
   void launch(const cl::Kernel &K, const std::string &Name,
               const cl::NDRange &Global, const cl::NDRange &Local);
   /// Why a launch of kernel \p Name ended with \p Status; says what the

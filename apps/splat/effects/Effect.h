@@ -49,8 +49,8 @@ struct Effect {
   EffectKind Kind;
   /// What it is and what it adds: code, unit, model.
   std::string_view What;
-  /// The macro of its code in the kernels, 0, 1 or a test of a flag (see
-  /// EffectPlan.h); empty where it has no code of its own.
+  /// The choice of its code in the kernels (device/Program.h, EffectSwitch);
+  /// empty where it has no code of its own.
   std::string_view Macro = ""; // NOLINT(readability-redundant-string-init)
   Finding (*Detect)(const EffectInputs &) = nullptr;
   /// The effect that encloses its code, which is done where this one is; later

@@ -4,6 +4,7 @@
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
+#include <cassert>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
@@ -28,18 +29,6 @@ uint32_t bitOf(const Effect &E) {
       Bit <<= 1;
   }
   return Bit;
-}
-
-std::string define(const Effect &E, EffectCode Code) {
-  switch (Code) {
-  case EffectCode::Absent:
-    return fmt::format("{}=0", E.Macro);
-  case EffectCode::Compiled:
-    return fmt::format("{}=1", E.Macro);
-  case EffectCode::Flagged:
-    return fmt::format("{}=(effects&{}u)", E.Macro, bitOf(E));
-  }
-  return {};
 }
 
 /// Whether --effects may name it: an option decides the others.
@@ -176,12 +165,21 @@ const EffectDecision &EffectPlan::of(const Effect &E) const {
   return *std::ranges::find(Decisions, &E, &EffectDecision::Subject);
 }
 
-std::vector<std::string> EffectPlan::defines() const {
-  std::vector<std::string> Defines;
-  for (const EffectDecision &D : Decisions)
-    if (hasFlag(*D.Subject) || (D.Subject->ByCamera && D.Done))
-      Defines.push_back(define(*D.Subject, D.Code));
-  return Defines;
+std::optional<EffectSwitch> EffectPlan::choiceOf(std::string_view Macro) const {
+  const auto D = std::ranges::find(
+      Decisions, Macro, [](const auto &Each) { return Each.Subject->Macro; });
+  assert(D != Decisions.end() && "kernels declare effects of the registry");
+  if (D->Subject->ByCamera && !D->Done)
+    return std::nullopt;
+  switch (D->Code) {
+  case EffectCode::Absent:
+    return EffectSwitch::absent();
+  case EffectCode::Compiled:
+    return EffectSwitch::compiled();
+  case EffectCode::Flagged:
+    return EffectSwitch::flagged(bitOf(*D->Subject));
+  }
+  return std::nullopt;
 }
 
 uint32_t EffectPlan::flags() const {

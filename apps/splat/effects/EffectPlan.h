@@ -1,9 +1,12 @@
 /// Which effects a picture gets, and in which form.
 #pragma once
 
+#include "device/Program.h"
 #include "effects/Effect.h"
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vorion::splat {
@@ -50,6 +53,15 @@ std::vector<std::string> effectChoices();
 /// effect that an option decides, the error names the option.
 Expected<EffectRequest> parseEffectRequest(const std::string &Text);
 
+/// Compiles the code of \p E into \p P, a structure `Program` of
+/// kernel_headers.py that takes it.
+template <typename Program> void compile(Program &P, const Effect &E) {
+  P.forEachEffect([&](std::string_view Macro, auto &Choice) {
+    if (Macro == E.Macro)
+      Choice = EffectSwitch::compiled();
+  });
+}
+
 class EffectPlan {
 public:
   EffectPlan() = default;
@@ -67,11 +79,19 @@ public:
     return of(E).Code != EffectCode::Absent;
   }
 
-  /// "MACRO=value" of each effect with code, but of those by the camera only
-  /// where they are on; the value is 0, 1 or a test of the
-  /// variable `effects`, which kernels get with flags().
-  std::vector<std::string> defines() const;
-  /// The bits of the effects that are done.
+  /// The code of the effect with the macro \p Macro; of one by the camera only
+  /// where it is on.
+  std::optional<EffectSwitch> choiceOf(std::string_view Macro) const;
+  /// Makes the choices of effects that \p P takes, a structure `Program` of
+  /// kernel_headers.py.
+  template <typename Program> void choose(Program &P) const {
+    const auto Set = [&](std::string_view Macro, auto &Choice) {
+      Choice = choiceOf(Macro);
+    };
+    if constexpr (requires { P.forEachEffect(Set); })
+      P.forEachEffect(Set);
+  }
+  /// The bits of the effects that are done, which kernels get as `effects`.
   uint32_t flags() const;
 
   /// Effects that are needed but left out, as a list can ask: the picture

@@ -7,7 +7,6 @@
 #include "picture/View.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -344,31 +343,41 @@ TEST_F(Effects, UnknownNamesAreErrors) {
             std::string::npos);
 }
 
+/// What the kernels of \p P are compiled with for each effect that has code.
+std::map<std::string_view, std::string> choices(const EffectPlan &P) {
+  std::map<std::string_view, std::string> Made;
+  for (const Effect *E : effects::all())
+    if (!E->Macro.empty())
+      if (const auto Choice = P.choiceOf(E->Macro))
+        Made.emplace(E->Macro, Choice->text());
+  return Made;
+}
+
 TEST_F(Effects, FlagsHaveABitEach) {
-  const EffectPlan P = plan("flags");
+  const auto Choices = choices(plan("flags"));
   std::set<std::string> Tests;
-  for (const std::string &Define : P.defines()) {
-    EXPECT_NE(Define.find("=(effects&"), std::string::npos);
-    Tests.insert(Define.substr(Define.find('=')));
+  for (const auto &[Macro, Text] : Choices) {
+    EXPECT_TRUE(Text.starts_with("(effects&")) << Macro;
+    Tests.insert(Text);
   }
-  EXPECT_EQ(Tests.size(), P.defines().size());
+  EXPECT_EQ(Tests.size(), Choices.size());
 }
 
 // In no mode behind a flag, and no pinhole's program says their macros.
 TEST_F(Effects, TheCameraDecidesItsLensInEveryMode) {
-  const std::vector<std::string> Flags = plan("flags").defines();
+  const auto Flags = choices(plan("flags"));
   for (const std::string Mode : {"auto", "all", "flags", "sh1"}) {
     O.Optics = LensModel::Fisheye;
     const EffectPlan P = plan(Mode);
     EXPECT_EQ(P.of(effects::FisheyeLens).Code, EffectCode::Compiled) << Mode;
     EXPECT_EQ(P.of(effects::OpenCvLens).Code, EffectCode::Absent) << Mode;
-    std::vector<std::string> Defines = P.defines();
-    EXPECT_EQ(std::erase(Defines, "USE_FISHEYE=1"), 1U) << Mode;
+    auto Choices = choices(P);
+    EXPECT_EQ(Choices[effects::FisheyeLens.Macro], "1") << Mode;
+    Choices.erase(effects::FisheyeLens.Macro);
     if (Mode == "flags")
-      EXPECT_EQ(Defines, Flags);
+      EXPECT_EQ(Choices, Flags);
     O.Optics = LensModel::Pinhole;
-    for (const std::string &Define : plan(Mode).defines())
-      EXPECT_EQ(Define.find("FISHEYE"), std::string::npos) << Mode;
+    EXPECT_FALSE(plan(Mode).choiceOf(effects::FisheyeLens.Macro)) << Mode;
   }
   EXPECT_EQ(effects::lensOf(LensModel::Pinhole), nullptr);
   EXPECT_EQ(effects::lensOf(LensModel::Equirectangular),
@@ -383,72 +392,21 @@ TEST_F(Effects, DepthIsADistanceWhereTheLensSeesBehind) {
   EXPECT_EQ(F.NearestDepth, 2);
 }
 
-/// \p Text without comments.
-std::string code(std::string_view Text) {
-  std::string Code;
-  for (std::size_t I = 0; I < Text.size(); ++I) {
-    if (Text.substr(I, 2) == "//")
-      I = std::min(Text.find('\n', I), Text.size() - 1);
-    if (Text.substr(I, 2) == "/*")
-      I = Text.find("*/", I) + 2;
-    Code += Text[I];
-  }
-  return Code;
-}
-
-/// The words of \p Code that look like macros, and how often each is there.
-std::map<std::string, int> macros(const std::string &Code) {
-  std::map<std::string, int> Found;
-  std::string Word;
-  for (const char C : Code + " ") {
-    if (std::isalnum(static_cast<unsigned char>(C)) || C == '_') {
-      Word += C;
-      continue;
+TEST(Registry, KernelsDeclareTheChoicesOfEffects) {
+  constexpr std::string_view Declaration = "#pragma vorion choice effect ";
+  std::set<std::string_view> Declared, Known;
+  for (const std::string_view File : kernelFiles()) {
+    const std::string_view Text = kernelSource(File);
+    for (std::size_t At = Text.find(Declaration); At != Text.npos;
+         At = Text.find(Declaration, At)) {
+      At += Declaration.size();
+      Declared.insert(Text.substr(At, Text.find('\n', At) - At));
     }
-    const bool Upper =
-        Word.size() > 3 && std::isupper(static_cast<unsigned char>(Word[0])) &&
-        std::ranges::none_of(Word,
-                             [](unsigned char L) { return std::islower(L); });
-    if (Upper)
-      ++Found[Word];
-    Word.clear();
   }
-  return Found;
-}
-
-TEST(Registry, KernelsAndRegistryKnowTheSameMacros) {
-  std::string All;
-  for (const std::string_view File : kernelFiles())
-    All += code(kernelSource(File)) + "\n";
-  const std::map<std::string, int> Used = macros(All);
-  std::set<std::string> Known;
   for (const Effect *E : effects::all())
-    if (!E->Macro.empty()) {
-      EXPECT_TRUE(Known.emplace(E->Macro).second) << E->Macro;
-      EXPECT_TRUE(Used.contains(std::string(E->Macro)))
-          << E->Name << " has no code";
-    }
-  for (const effects::Parameter &P : effects::parameters()) {
-    EXPECT_TRUE(Known.emplace(P.Name).second) << P.Name;
-    EXPECT_TRUE(Used.contains(std::string(P.Name))) << P.Name;
-  }
-  // Beside those: what kernels define or enumerate themselves, and the device's
-  // headers.
-  std::string Enumerations;
-  for (std::size_t At = All.find("enum {"); At != std::string::npos;
-       At = All.find("enum {", At + 1))
-    Enumerations += All.substr(At, All.find('}', At) - At);
-  const std::map<std::string, int> Enumerators = macros(Enumerations);
-  const auto Defined = [&](const std::string &Word) {
-    return Enumerators.contains(Word) ||
-           All.find("#define " + Word) != std::string::npos ||
-           Word.starts_with("VR_") || Word.starts_with("CLK_") ||
-           Word.starts_with("M_") || Word == "INFINITY";
-  };
-  for (const auto &[Word, Count] : Used)
-    if (!Known.contains(Word) && !Defined(Word))
-      ADD_FAILURE() << Word << " of the kernels is neither an effect's macro "
-                    << "nor a parameter in effects/Registry.cpp";
+    if (!E->Macro.empty())
+      EXPECT_TRUE(Known.insert(E->Macro).second) << E->Macro;
+  EXPECT_EQ(Declared, Known);
 }
 
 TEST(Registry, NamesAreUniqueAndEveryKindIsThere) {

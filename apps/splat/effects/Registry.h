@@ -55,11 +55,4 @@ const Effect *find(std::string_view Name);
 /// That of a camera of model \p M, or null for a pinhole.
 const Effect *lensOf(LensModel M);
 
-/// The macros that every program's kernels are built with beside the effects':
-/// sizes and rules of the pipeline, which no scene switches off.
-struct Parameter {
-  std::string_view Name, Meaning;
-};
-std::span<const Parameter> parameters();
-
 } // namespace vorion::splat::effects

@@ -5,8 +5,12 @@
 // move on the picture.
 #pragma once
 
+// Gaussians that point at the camera (effects/Needles.cpp).
+#pragma vorion choice effect USE_NEEDLES
+
 #include "activate.cl"
 #include "covariance.cl"
+#include "has_lens.h"
 #include "layout.h"
 
 static float2 product2(float a, float b) {

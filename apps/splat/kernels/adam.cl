@@ -5,6 +5,9 @@
 // the view did not see too: their gradient is 0 and their moments fade.
 // MOMENTS_BY_PLANE: `first` and `second` have one plane, `own_plane`.
 
+// The moments' planes are on the host: there is one here, `own_plane`.
+#pragma vorion choice flag MOMENTS_BY_PLANE
+
 __kernel void adam(__global float *parameters, __global const float *gradients,
                    __global float *first, __global float *second,
                    __constant const float *rates, uint count, float beta1,

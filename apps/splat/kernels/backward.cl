@@ -1,6 +1,14 @@
 // What the ways back through a camera share.
 #pragma once
 
+// gsplat: what is held at a limit follows the depth.
+#pragma vorion choice flag LIMIT_FOLLOWS_DEPTH
+// The opacity makes up for the dilation.
+#pragma vorion choice flag ANTIALIASED
+// Points outside the field of view are held at its limits
+// (effects/FieldOfView.cpp).
+#pragma vorion choice effect USE_FIELD_OF_VIEW
+
 #include "covariance.cl"
 
 #define KEEP_SEEN_POINTS

@@ -5,7 +5,25 @@
 // same bits for every TILE_SIZE and GROUP.
 #pragma once
 
+// Work-items of a group.
+#pragma vorion choice uint GROUP
+// gsplat: a pixel is done at a transmittance of the cut-off, not only below it.
+#pragma vorion choice flag STOP_AT_EQUAL
+// Training: pixels keep their last contributor.
+#pragma vorion choice flag KEEP_LAST
+// The least alpha that is blended, in 1/255.
+#pragma vorion choice float ALPHA_CUTOFF
+// The exponent below which no opacity is visible.
+#pragma vorion choice float MIN_POWER
+// Support: all tiles that INRIA's square meets.
+#pragma vorion choice flag SUPPORT_OFFICIAL16
+// Opacities above 0.99 (effects/AlphaClamp.cpp).
+#pragma vorion choice effect USE_ALPHA_CLAMP
+// Gaussians of several tiles are marked (effects/IntersectTags.cpp).
+#pragma vorion choice effect USE_INTERSECT_TAGS
+
 #include "layout.h"
+#include "tile.h"
 #include "window.h"
 #ifdef EXP_DEGREE
 #include "units.cl"

@@ -3,9 +3,15 @@
 // over the work-items, one Gaussian a work-item, in a fixed order and without
 // atomics.
 
+// The exponent below which no opacity is visible.
+#pragma vorion choice float MIN_POWER
+
+#define RECORD_SPACE __global // pixel_backward.cl
+
 #include "lane_tree.cl"
 #include "layout.h"
 #include "pixel_backward.cl"
+#include "tile.h"
 #include "window.h"
 
 #define PIXELS (TILE_SIZE * TILE_SIZE)

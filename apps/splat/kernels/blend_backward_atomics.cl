@@ -5,9 +5,17 @@
 // paper's rasterizer is compared with are kernels that sum so. WARP_SUMS: the
 // pixels of a warp are added up first (warp_sums.cl).
 
+// The exponent below which no opacity is visible.
+#pragma vorion choice float MIN_POWER
+// The pixels of a warp are added up first (warp_sums.cl).
+#pragma vorion choice flag WARP_SUMS
+
+#define RECORD_SPACE __local // pixel_backward.cl
+
 #include "atomic_sum.cl"
 #include "layout.h"
 #include "pixel_backward.cl"
+#include "tile.h"
 #include "window.h"
 #ifdef WARP_SUMS
 #include "warp_sums.cl"

@@ -5,6 +5,9 @@
 // several times. Each time it finds the RAY_WINDOW nearest Gaussians behind
 // those that it has blended. The picture has the same bits for every RAY_WINDOW.
 
+// Gaussians that a pixel finds at once.
+#pragma vorion choice uint RAY_WINDOW
+
 #include "blend.cl"
 
 // The nearest Gaussian comes first. Empty places have alpha 0.

@@ -3,7 +3,14 @@
 // of operations is that of reference/Projection.h, which gives the same bits.
 #pragma once
 
+// Added to the covariance's diagonal, px^2.
+#pragma vorion choice float DILATION
+
 #include "layout.h"
+
+// The least ratio of determinants whose root is the factor of antialiasing, by
+// both rules (reference/Projection.h).
+#define ANTIALIAS_FLOOR 2.5e-5f
 
 // Where a kernel keeps the camera.
 #ifndef VIEW_SPACE

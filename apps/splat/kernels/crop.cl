@@ -8,6 +8,7 @@
 
 #include "activate.cl"
 #include "covariance.cl"
+#include "has_lens.h"
 #include "layout.h"
 
 // Where a kernel keeps the ray.

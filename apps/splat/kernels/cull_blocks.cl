@@ -1,8 +1,19 @@
 // Finds the blocks of Gaussians (layout.h) of which a pinhole sees none, by the
 // sphere that holds their means and by their largest standard deviation.
 
+// The exponent below which no opacity is visible.
+#pragma vorion choice float MIN_POWER
+// Support: every pixel with alpha of at least the cut-off.
+#pragma vorion choice flag SUPPORT_EXACT
+// Support: the box of 3 sigma along each axis.
+#pragma vorion choice flag SUPPORT_BOX3
+// Support: all tiles that INRIA's square meets.
+#pragma vorion choice flag SUPPORT_OFFICIAL16
+
 #include "covariance.cl"
 #include "layout.h"
+#include "near.h"
+#include "tile.h"
 
 // Deviations that a support reaches at most: 3, or where alpha is the least
 // that is blended, at an opacity of 1.

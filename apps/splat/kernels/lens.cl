@@ -10,6 +10,7 @@
 #pragma once
 
 #include "covariance.cl"
+#include "has_lens.h"
 #include "layout.h"
 #if USE_OPENCV
 #include "lens_opencv.cl"

@@ -2,6 +2,10 @@
 // tangential and of a thin prism. Depth is z.
 #pragma once
 
+// Points outside the field of view are held at its limits
+// (effects/FieldOfView.cpp).
+#pragma vorion choice effect USE_FIELD_OF_VIEW
+
 #include "covariance.cl"
 #include "layout.h"
 

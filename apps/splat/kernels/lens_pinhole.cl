@@ -1,6 +1,10 @@
 // A pinhole, for the unscented transform and rolling shutters.
 #pragma once
 
+// Points outside the field of view are held at its limits
+// (effects/FieldOfView.cpp).
+#pragma vorion choice effect USE_FIELD_OF_VIEW
+
 #include "covariance.cl"
 #include "layout.h"
 

@@ -6,12 +6,16 @@
 // the window is its own adjoint. reference/Loss.h is the same in fp64.
 //
 // A group is a warp and has a channel of a tile, LANES columns by TILE_ROWS
-// rows (both from the host). What the tile's windows cover is read once, into
+// rows. What the tile's windows cover is read once, into
 // local memory, zero where it is beyond the picture. For sums along rows a
 // work-item has a row, along columns a column; it adds up a run of sums
 // together, so that a value that was read serves all of them. Only the slopes go through
 // memory, in planes of whole tiles, zero beyond the picture.
 
+// Rows of a group's tile.
+#pragma vorion choice uint TILE_ROWS
+
+#define LANES 16
 #define REACH 5
 #define MOMENTS 5
 #define SLOPES 3

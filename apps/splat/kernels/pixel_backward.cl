@@ -2,6 +2,13 @@
 // docs/abi.md, "Backward". RECORD_SPACE: where the Gaussian lies.
 #pragma once
 
+// The least alpha that is blended, in 1/255.
+#pragma vorion choice float ALPHA_CUTOFF
+// gsplat: no gradient goes through an alpha that is clamped to 0.99.
+#pragma vorion choice flag CLAMP_STOPS
+// So many sums of absolute gradients are taken, too.
+#pragma vorion choice optional uint ABSOLUTE_SUMS
+
 #include "falloff.cl"
 #include "layout.h"
 

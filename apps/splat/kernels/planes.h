@@ -3,6 +3,9 @@
 // `geometry` and `sh` are where its words of the first planes are.
 #pragma once
 
+// Parameters lie in blocks (layout.h), as drawing has them.
+#pragma vorion choice flag SCENE_IN_BLOCKS
+
 #include "layout.h"
 
 #ifdef SCENE_IN_BLOCKS

@@ -3,10 +3,25 @@
 // A Gaussian that no tile sees gets CULLED and the reason as its key, an empty
 // rectangle and a record of no meaning.
 
+// The opacity makes up for the dilation (effects/Antialias.cpp).
+#pragma vorion choice effect USE_ANTIALIAS
+// Gaussians before the near plane (effects/NearPlane.cpp).
+#pragma vorion choice effect USE_NEAR_PLANE
+// Points outside the field of view are held at its limits
+// (effects/FieldOfView.cpp).
+#pragma vorion choice effect USE_FIELD_OF_VIEW
+// Gaussians of several tiles are marked (effects/IntersectTags.cpp).
+#pragma vorion choice effect USE_INTERSECT_TAGS
+// Parameters are activated already (effects/ActivatedScene.cpp).
+#pragma vorion choice effect USE_ACTIVATED_SCENE
+
+#define VIEW_SPACE __local // covariance.cl
+
 #include "activate.cl"
 #include "camera_depth.cl"
 #include "covariance.cl"
 #include "layout.h"
+#include "near.h"
 #include "planes.h"
 #include "project_memory.cl"
 #include "rectangle.cl"

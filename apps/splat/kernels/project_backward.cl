@@ -3,6 +3,11 @@
 // that what must vanish for round Gaussians does. Gaussians that no tile sees
 // get 0.
 
+// Gradients are by the stored parameters, not the activated ones.
+#pragma vorion choice flag STORED_PARAMETERS
+// The gradients by the camera's pose are taken, too.
+#pragma vorion choice flag POSES
+
 #include "activate.cl"
 #include "backward.cl"
 #include "covariance.cl"

@@ -3,6 +3,9 @@
 // it reaches in. `x` is its own place.
 #pragma once
 
+// Gaussians of several tiles are marked (effects/IntersectTags.cpp).
+#pragma vorion choice effect USE_INTERSECT_TAGS
+
 #include "layout.h"
 #include "project_memory.cl"
 #include "rectangle.cl"

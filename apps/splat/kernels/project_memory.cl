@@ -2,6 +2,19 @@
 // it asks for ahead of their use.
 #pragma once
 
+// Parameters lie in blocks (layout.h), as drawing has them.
+#pragma vorion choice flag SCENE_IN_BLOCKS
+// The harmonics of band 1 (effects/ShBands.cpp).
+#pragma vorion choice effect USE_SH1
+// The harmonics of band 2 (effects/ShBands.cpp).
+#pragma vorion choice effect USE_SH2
+// The harmonics of band 3 (effects/ShBands.cpp).
+#pragma vorion choice effect USE_SH3
+// Blocks with a verdict are passed over (effects/CullBlocks.cpp).
+#pragma vorion choice effect USE_CULL_BLOCKS
+// Pictures far from the axis (effects/Crop.cpp).
+#pragma vorion choice effect USE_CROP
+
 #include "has_lens.h"
 #include "layout.h"
 

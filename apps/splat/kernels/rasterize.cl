@@ -2,7 +2,17 @@
 // own and waits for them at the end, or in a later kernel (docs/rasterizer.md).
 // One group a core.
 
+// Training: pixels keep their last contributor.
+#pragma vorion choice flag KEEP_LAST
+// Dealing by the last frame: tiles keep their counts.
+#pragma vorion choice flag KEEP_COUNTS
+// Tiles are drawn in depth parts (effects/ZTiles.cpp).
+#pragma vorion choice effect USE_ZTILES
+// Pixel units end what rasterizers hand over (effects/PixelUnit.cpp).
+#pragma vorion choice effect USE_PIXEL_UNIT
+
 #include "layout.h"
+#include "tile.h"
 #include "window.h"
 #ifdef KEEP_COUNTS
 #include "deal_last_frame.cl"
@@ -24,11 +34,6 @@ _Static_assert(DATAPATH_EXP == VR_OPTIONS_EXP_SHIFT &&
                "kernels/layout.h and docs/isa.md disagree");
 _Static_assert(sizeof(vx_tail) == TAIL_BYTES,
                "kernels/layout.h and docs/isa.md disagree");
-
-// Square tiles, unless the plan says otherwise.
-#ifndef TILE_HEIGHT
-#define TILE_HEIGHT TILE_SIZE
-#endif
 
 // What the commands of a picture share.
 typedef struct {

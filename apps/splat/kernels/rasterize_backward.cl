@@ -4,6 +4,7 @@
 
 #include "deal.cl"
 #include "layout.h"
+#include "tile.h"
 #include "window.h"
 
 #include <vorion_raster.h>

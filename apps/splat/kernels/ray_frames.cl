@@ -2,6 +2,9 @@
 // pixel's ray. As in StopThePop (Radl et al. 2024), that is the depth at which
 // the Gaussian's density along the ray is largest.
 
+// Parameters are activated already (effects/ActivatedScene.cpp).
+#pragma vorion choice effect USE_ACTIVATED_SCENE
+
 #include "activate.cl"
 #include "covariance.cl"
 #include "layout.h"

@@ -2,6 +2,9 @@
 // tiles. Each partial sum keeps what rounding takes from it (T. J. Dekker 1971):
 // hundreds of tiles lose no more than one. Without atomics, in a fixed order.
 
+// So many sums of absolute gradients are taken, too.
+#pragma vorion choice optional uint ABSOLUTE_SUMS
+
 #include "activate.cl"
 #include "layout.h"
 

@@ -3,6 +3,9 @@
 // what is left, and the fourth channel becomes alpha. A work-item has one
 // channel of many pixels, so that a warp reads and writes whole lines.
 
+// A background (effects/Background.cpp).
+#pragma vorion choice effect USE_BACKGROUND
+
 #define LANES 16
 // Lines that a group has in flight.
 #define BATCH 4

@@ -3,6 +3,15 @@
 // are those of the convention that 3DGS scenes store.
 #pragma once
 
+// The harmonics of band 1 (effects/ShBands.cpp).
+#pragma vorion choice effect USE_SH1
+// The harmonics of band 2 (effects/ShBands.cpp).
+#pragma vorion choice effect USE_SH2
+// The harmonics of band 3 (effects/ShBands.cpp).
+#pragma vorion choice effect USE_SH3
+// The view colors Gaussians (effects/ViewColor.cpp).
+#pragma vorion choice effect USE_VIEW_COLOR
+
 #include "planes.h"
 #include "sh_basis.h"
 

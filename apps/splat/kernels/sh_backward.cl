@@ -2,6 +2,9 @@
 // coefficient k of channel c are in plane 3 k + c.
 #pragma once
 
+// Degree of the harmonics that have gradients.
+#pragma vorion choice uint SH_DEGREE
+
 #include "planes.h"
 #include "sh_basis.h"
 

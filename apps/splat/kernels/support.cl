@@ -3,7 +3,21 @@
 // tiles are those of reference/Projection.h and Tiles.h.
 #pragma once
 
+// Support: every pixel with alpha of at least the cut-off.
+#pragma vorion choice flag SUPPORT_EXACT
+// Support: the box of 3 sigma along each axis.
+#pragma vorion choice flag SUPPORT_BOX3
+// Support: INRIA's radius as a square.
+#pragma vorion choice flag SUPPORT_SQUARE3
+// Support: all tiles that INRIA's square meets.
+#pragma vorion choice flag SUPPORT_OFFICIAL16
+// The least alpha that is blended, in 1/255.
+#pragma vorion choice float ALPHA_CUTOFF
+// Gaussians too faint for any pixel (effects/Faint.cpp).
+#pragma vorion choice effect USE_FAINT
+
 #include "covariance.cl"
+#include "tile.h"
 
 // The half sides of the box in pixels; false if nothing can be reached.
 static bool support_extent(screen_covariance s, float opacity, uint effects,
@@ -49,11 +63,6 @@ static float pixel_extent(float extent) {
 static uint clamped_floor(float v, uint most) {
   return (uint)fmin(fmax(v, 0.0f), (float)most);
 }
-
-// Square tiles, unless the plan says otherwise.
-#ifndef TILE_HEIGHT
-#define TILE_HEIGHT TILE_SIZE
-#endif
 
 // Tiles [first, last), `tile` pixels each, along one axis of a picture of so
 // many pixels.

@@ -4,6 +4,11 @@
 // has the same depth), and the copies, made in depth order, are sorted stably
 // by tile. The lists are those of a sort by the whole key.
 
+// Training: the places of each Gaussian's pairs are kept.
+#pragma vorion choice flag KEEP_PLACES
+// Gaussians of several tiles are marked (effects/IntersectTags.cpp).
+#pragma vorion choice effect USE_INTERSECT_TAGS
+
 #include "layout.h"
 #include "rectangle.cl"
 

@@ -4,6 +4,9 @@
 // isasim/raster/ExpUnits.h.
 #pragma once
 
+// Degree of the polynomial of the exponential unit, 2 to 4.
+#pragma vorion choice optional uint EXP_DEGREE
+
 #define LOG2E 0x1.715476p0f
 
 static float falloff(float power) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "lens.cl"
+#include "near.h"
 #if USE_ROLLING_SHUTTER
 #include "rolling.cl"
 #endif

@@ -4,6 +4,9 @@
 // the place of the first record.
 #pragma once
 
+// Records of windows (effects/Windows.cpp).
+#pragma vorion choice effect USE_WINDOWS
+
 #include "layout.h"
 
 typedef struct {

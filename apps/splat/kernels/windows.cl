@@ -2,18 +2,16 @@
 // that its tiles name (window.h), with means measured from the ray through the
 // window's middle (crop.cl).
 
+#define CROP_SPACE __global // crop.cl
+
 #include "activate.cl"
 #include "covariance.cl"
 #include "layout.h"
 #include "planes.h"
 #include "rectangle.cl"
+#include "tile.h"
 #include "camera.cl"
 #include "crop.cl"
-
-// Square tiles, unless the plan says otherwise.
-#ifndef TILE_HEIGHT
-#define TILE_HEIGHT TILE_SIZE
-#endif
 
 // Windows [x, y) along an axis that tiles [begin, end) meet.
 static uint2 window_span(uint bits, uint begin, uint end, uint tile) {

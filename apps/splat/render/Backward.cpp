@@ -1,11 +1,19 @@
 #include "render/Backward.h"
 
 #include "effects/Registry.h"
+#include "kernels/blend_backward.cl.h"
+#include "kernels/blend_backward_atomics.cl.h"
+#include "kernels/depth_loss.cl.h"
+#include "kernels/project_backward.cl.h"
+#include "kernels/rasterize_backward.cl.h"
+#include "kernels/reduce.cl.h"
+#include "kernels/upstream.cl.h"
+#include "render/Choices.h"
 #include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <iterator>
+#include <optional>
 
 namespace vorion::splat {
 
@@ -13,65 +21,46 @@ namespace {
 
 #include "kernels/pose.h"
 
-constexpr const char *UpstreamProgram = "upstream";
-constexpr const char *BlendBackwardProgram = "blend backward";
-constexpr const char *ReduceProgram = "reduce";
-constexpr const char *ProjectBackwardProgram = "project backward";
-constexpr const char *DepthLossProgram = "depth loss";
-
 } // namespace
 
 std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
                                       const BackwardOptions &B) {
-  const bool Gsplat = O.Convention == Rules::Gsplat;
-  ProgramSpec Blend{BlendBackwardProgram, "rasterize_backward.cl",
-                    tileDefines(O)};
-  if (B.Windows)
-    Blend.Defines.push_back(fmt::format("{}=1", effects::Windows.Macro));
-  if (O.Blending == Path::Simt) {
-    if (B.Pixels == SimtSums::Ordered) {
-      Blend.File = "blend_backward.cl";
-      Blend.Defines.emplace_back("RECORD_SPACE=__global");
-    } else {
-      Blend.File = "blend_backward_atomics.cl";
-      if (B.Pixels == SimtSums::Warp)
-        Blend.Defines.emplace_back("WARP_SUMS");
-      Blend.Defines.emplace_back("RECORD_SPACE=__local");
-    }
-    Blend.Defines.push_back(minPowerDefine(O));
-    Blend.Defines.push_back(alphaCutoffDefine(O));
-    if (Gsplat)
-      Blend.Defines.emplace_back("CLAMP_STOPS");
-  }
-  ProgramSpec Project{ProjectBackwardProgram, "project_backward.cl",
-                      projectionDefines(ShDegree, O)};
-  const auto Has = [&Project](const Effect &E) {
-    Project.Defines.push_back(fmt::format("{}=1", E.Macro));
+  const EffectSwitch On = EffectSwitch::compiled();
+  std::vector<ProgramSpec> Programs{kernels::upstream::Program{}};
+  const std::optional<cl_uint> AbsoluteSums =
+      B.AbsoluteSums ? std::optional(2U) : std::nullopt;
+  const auto AddBlending = [&](auto Program) {
+    choose(Program, O);
+    if (B.Windows)
+      Program.USE_WINDOWS = On;
+    if constexpr (requires { Program.ABSOLUTE_SUMS; })
+      Program.ABSOLUTE_SUMS = AbsoluteSums;
+    Programs.push_back(Program);
   };
+  if (O.Blending == Path::Raster)
+    AddBlending(kernels::rasterize_backward::Program{});
+  else if (B.Pixels == SimtSums::Ordered)
+    AddBlending(kernels::blend_backward::Program{});
+  else
+    AddBlending(kernels::blend_backward_atomics::Program{
+        .WARP_SUMS = B.Pixels == SimtSums::Warp});
+  Programs.push_back(kernels::reduce::Program{.ABSOLUTE_SUMS = AbsoluteSums});
+  kernels::project_backward::Program Project{
+      .SH_DEGREE = static_cast<cl_uint>(ShDegree),
+      .STORED_PARAMETERS = B.Parameters == GradientsOf::Stored,
+      .POSES = B.Poses};
+  choose(Project, O);
   if (const Effect *Lens = effects::lensOf(O.Optics))
-    Has(*Lens);
+    compile(Project, *Lens);
   if (O.Rolling)
-    Has(effects::RollingShutter);
-  if (O.Through == Spread::Unscented) {
-    Has(effects::Unscented);
-    Project.Defines.push_back(keepDepthDefine(O));
-  }
+    Project.USE_ROLLING_SHUTTER = On;
+  if (O.Through == Spread::Unscented)
+    Project.USE_UNSCENTED = On;
   if (B.Needles)
-    Has(effects::Needles);
-  if (Gsplat)
-    Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");
-  if (B.Parameters == GradientsOf::Stored)
-    Project.Defines.emplace_back("STORED_PARAMETERS");
-  if (B.Poses)
-    Project.Defines.emplace_back("POSES");
-  ProgramSpec Reduce{ReduceProgram, "reduce.cl", {}};
-  if (B.AbsoluteSums)
-    for (ProgramSpec *P : {&Blend, &Reduce})
-      P->Defines.emplace_back("ABSOLUTE_SUMS=2");
-  std::vector<ProgramSpec> Programs{
-      {UpstreamProgram, "upstream.cl", {}}, Blend, Reduce, Project};
+    Project.USE_NEEDLES = On;
+  Programs.push_back(Project);
   if (B.Depths)
-    Programs.push_back({DepthLossProgram, "depth_loss.cl", {}});
+    Programs.push_back(kernels::depth_loss::Program{});
   return Programs;
 }
 
@@ -93,9 +82,14 @@ void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
                                    const cl::Buffer &ByAlpha,
                                    const std::array<float, 3> &Background) {
   Upstream = Launch.allocate("pixels' gradients", 16 * uint64_t{F.pixels()});
-  Launch.run(UpstreamProgram, "upstream", itemsFor(F.pixels()), GroupSize,
-             ByRender, ByAlpha, Upstream, F.pixels(), Background[0],
-             Background[1], Background[2]);
+  Launch.run(itemsFor(F.pixels()), GroupSize,
+             kernels::upstream::upstream{.by_render = ByRender,
+                                         .by_alpha = ByAlpha,
+                                         .gradients = Upstream,
+                                         .count = F.pixels(),
+                                         .red = Background[0],
+                                         .green = Background[1],
+                                         .blue = Background[2]});
 }
 
 void BackwardPipeline::run(Pipeline &Forward, const DepthTargets &Known) {
@@ -107,9 +101,12 @@ void BackwardPipeline::run(Pipeline &Forward, const DepthTargets &Known) {
   Launch.beginStage(Stage::ProjectBackward);
   project(F);
   if (Known.any())
-    Launch.run(DepthLossProgram, "depth_to_mean", itemsFor(F.Gaussians.Count),
-               GroupSize, F.Camera, Deep, F.Depths.Keys, Gradients,
-               F.Gaussians.Count);
+    Launch.run(itemsFor(F.Gaussians.Count), GroupSize,
+               kernels::depth_loss::depth_to_mean{.view = F.Camera,
+                                                  .deep = Deep,
+                                                  .depths = F.Depths.Keys,
+                                                  .gradients = Gradients,
+                                                  .count = F.Gaussians.Count});
 }
 
 /// What blending depths gives back; of shapes it is added to \c Sums.
@@ -121,8 +118,11 @@ cl::Buffer BackwardPipeline::depthSums(Pipeline &Forward,
   Launch.beginStage(Stage::Depth);
   const cl::Buffer Records = Launch.allocate(
       "Gaussians with depths", sizeof(splat_gaussian) * uint64_t{Count});
-  Launch.run(DepthLossProgram, "depth_records", itemsFor(Count), GroupSize,
-             F.Depths.Keys, F.Records, Records, Count);
+  Launch.run(itemsFor(Count), GroupSize,
+             kernels::depth_loss::depth_records{.depths = F.Depths.Keys,
+                                                .records = F.Records,
+                                                .to = Records,
+                                                .count = Count});
   const Frame Deep = Forward.drawBeside(Records);
   const cl::Buffer Given =
       Launch.allocate("known depths", sizeof(DepthPoint) * uint64_t{Points});
@@ -130,13 +130,21 @@ cl::Buffer BackwardPipeline::depthSums(Pipeline &Forward,
                sizeof(DepthPoint) * uint64_t{Points});
   const cl::Buffer By =
       Launch.allocate("pixels' gradients", 16 * uint64_t{F.pixels()});
-  Launch.run(DepthLossProgram, "depth_clear", itemsFor(F.pixels()), GroupSize,
-             By, F.pixels());
-  Launch.run(DepthLossProgram, "depth_loss", itemsFor(Points), GroupSize, Given,
-             Points, Deep.Pixels, By, Known.Weight);
+  Launch.run(
+      itemsFor(F.pixels()), GroupSize,
+      kernels::depth_loss::depth_clear{.upstream = By, .pixels = F.pixels()});
+  Launch.run(itemsFor(Points), GroupSize,
+             kernels::depth_loss::depth_loss{.points = Given,
+                                             .count = Points,
+                                             .pixels = Deep.Pixels,
+                                             .upstream = By,
+                                             .weight = Known.Weight});
   const cl::Buffer Found = sumsOf(Forward, Deep, By, false);
-  Launch.run(DepthLossProgram, "depth_add", itemsFor(Count), GroupSize, Sums,
-             Found, F.Depths.Keys, Count);
+  Launch.run(itemsFor(Count), GroupSize,
+             kernels::depth_loss::depth_add{.sums = Sums,
+                                            .deep = Found,
+                                            .depths = F.Depths.Keys,
+                                            .count = Count});
   return Found;
 }
 
@@ -156,13 +164,23 @@ cl::Buffer BackwardPipeline::sumsByAtomics(const Frame &F,
                                            const cl::Buffer &By) {
   const uint32_t Words = Choice.sums() * F.drawn();
   cl::Buffer Found = Launch.allocate("Gaussians' sums", 4 * uint64_t{Words});
-  Launch.run(BlendBackwardProgram, "clear_sums", itemsFor(Words), GroupSize,
-             Found, Words);
+  Launch.run(itemsFor(Words), GroupSize,
+             kernels::blend_backward_atomics::clear_sums{.sums = Found,
+                                                         .words = Words});
   const uint32_t Items = Options.SimtTile * Options.SimtTile;
-  Launch.run(BlendBackwardProgram, "blend_backward_atomics",
-             cl::NDRange(F.View.tiles[0] * Items, F.View.tiles[1]),
-             cl::NDRange(Items, 1), F.Blended, F.List, F.Ranges, F.Pixels,
-             F.Last, By, Found, F.drawn(), F.View.size[0], F.View.size[1]);
+  Launch.run(cl::NDRange(F.View.tiles[0] * Items, F.View.tiles[1]),
+             cl::NDRange(Items, 1),
+             kernels::blend_backward_atomics::blend_backward_atomics{
+                 .records = F.Blended,
+                 .list = F.List,
+                 .ranges = F.Ranges,
+                 .pixels = F.Pixels,
+                 .last = F.Last,
+                 .upstream = By,
+                 .sums = Found,
+                 .count = F.drawn(),
+                 .width = F.View.size[0],
+                 .height = F.View.size[1]});
   return Found;
 }
 
@@ -171,11 +189,19 @@ void BackwardPipeline::blend(Pipeline &Forward, const Frame &F,
   PairSums =
       Launch.allocate("pairs' sums", 4 * Choice.sums() * uint64_t{F.Pairs});
   if (Options.Blending == Path::Simt) {
-    Launch.run(BlendBackwardProgram, "blend_backward",
-               cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
-               cl::NDRange(Lanes, 1), F.Blended, F.List, F.Ranges, F.Pixels,
-               F.Last, By, F.ByTile.Values, PairSums, F.View.size[0],
-               F.View.size[1]);
+    Launch.run(
+        cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
+        cl::NDRange(Lanes, 1),
+        kernels::blend_backward::blend_backward{.records = F.Blended,
+                                                .list = F.List,
+                                                .ranges = F.Ranges,
+                                                .pixels = F.Pixels,
+                                                .last = F.Last,
+                                                .upstream = By,
+                                                .places = F.ByTile.Values,
+                                                .sums = PairSums,
+                                                .width = F.View.size[0],
+                                                .height = F.View.size[1]});
     return;
   }
   // vr_backward of docs/isa.md: reciprocal unit, alpha's clamp, gather.
@@ -185,10 +211,20 @@ void BackwardPipeline::blend(Pipeline &Forward, const Frame &F,
       (Choice.Order == GatherOrder::Rows ? 1U << 4 : 0U));
   const std::size_t Cores = Launch.device().computeUnits();
   const cl::Buffer Statuses = Launch.allocate("cores' statuses", 4 * Cores);
-  Launch.run(BlendBackwardProgram, "rasterize_backward", Cores * Lanes, Lanes,
-             F.Blended, F.List, F.Ranges, F.TileOrder, F.Pixels, F.Last, By,
-             F.ByTile.Values, PairSums, Statuses, Forward.blendOptions(),
-             Backward);
+  Launch.run(Cores * Lanes, Lanes,
+             kernels::rasterize_backward::rasterize_backward{
+                 .records = F.Blended,
+                 .list = F.List,
+                 .ranges = F.Ranges,
+                 .tile_order = F.TileOrder,
+                 .pixels = F.Pixels,
+                 .last = F.Last,
+                 .upstream = By,
+                 .places = F.ByTile.Values,
+                 .sums = PairSums,
+                 .statuses = Statuses,
+                 .options = Forward.blendOptions(),
+                 .backward = Backward});
   Forward.checkStatuses(Statuses);
 }
 
@@ -196,8 +232,13 @@ cl::Buffer BackwardPipeline::reduce(const Frame &F) {
   const uint32_t Count = F.drawn();
   cl::Buffer Found =
       Launch.allocate("Gaussians' sums", 4 * Choice.sums() * uint64_t{Count});
-  Launch.run(ReduceProgram, "reduce_sums", itemsFor(F.Visible), GroupSize,
-             PairSums, F.Order, F.Places, Found, F.Visible, Count);
+  Launch.run(itemsFor(F.Visible), GroupSize,
+             kernels::reduce::reduce_sums{.pair_sums = PairSums,
+                                          .order = F.Order,
+                                          .offsets = F.Places,
+                                          .sums = Found,
+                                          .seen = F.Visible,
+                                          .count = Count});
   return Found;
 }
 
@@ -210,9 +251,17 @@ void BackwardPipeline::project(const Frame &F) {
                                   Count);
   ShGradients = Launch.allocate(
       "colours' gradients", 4 * 3 * shCoefficients(ShDegree) * uint64_t{Count});
-  Launch.run(ProjectBackwardProgram, "project_backward", itemsFor(Count),
-             GroupSize, F.Camera, F.Gaussians.Geometry, F.Gaussians.Sh,
-             F.Records, F.Depths.Keys, Sums, Gradients, ShGradients, Count);
+  Launch.run(itemsFor(Count), GroupSize,
+             kernels::project_backward::project_backward{
+                 .view = F.Camera,
+                 .geometry = F.Gaussians.Geometry,
+                 .sh = F.Gaussians.Sh,
+                 .records = F.Records,
+                 .depths = F.Depths.Keys,
+                 .sums = Sums,
+                 .gradients = Gradients,
+                 .sh_gradients = ShGradients,
+                 .count = Count});
 }
 
 } // namespace vorion::splat

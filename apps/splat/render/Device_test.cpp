@@ -2,6 +2,10 @@
 
 #include "device/Kernels.h"
 #include "device/OnDevice.h"
+#include "kernels/merge.cl.h"
+#include "kernels/scan.cl.h"
+#include "kernels/sort.cl.h"
+#include "kernels/tiles.cl.h"
 #include "render/Plan.h"
 #include "render/Sorter.h"
 #include "scene/Activation.h"
@@ -26,7 +30,7 @@ class SortOnDevice : public OnDevice,
 TEST_P(SortOnDevice, ScanSumsWhatComesBefore) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({ScanProgram, "scan.cl", {}});
+  L.build(kernels::scan::Program{});
   Sorter S(L);
   const uint32_t Count = GetParam();
   std::vector<uint32_t> In(Count);
@@ -41,8 +45,8 @@ TEST_P(SortOnDevice, ScanSumsWhatComesBefore) {
 TEST_P(SortOnDevice, SortIsStableOnItsBits) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({ScanProgram, "scan.cl", {}});
-  L.build({SortProgram, "sort.cl", {}});
+  L.build(kernels::scan::Program{});
+  L.build(kernels::sort::Program{});
   Sorter S(L);
   const uint32_t Count = GetParam();
   for (const unsigned Bits : {1U, 8U, 11U, 32U}) {
@@ -87,8 +91,8 @@ TEST_P(SortOnDevice, SortIsStableOnItsBits) {
 TEST_P(SortOnDevice, SortKeptLeavesOutAndNumbers) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({ScanProgram, "scan.cl", {}});
-  L.build({SortProgram, "sort.cl", {}});
+  L.build(kernels::scan::Program{});
+  L.build(kernels::sort::Program{});
   Sorter S(L);
   Sorter::KeptKeys What{GetParam(), 0, 0, 0, 0};
   constexpr uint32_t Base = 0x3e4ccccd;
@@ -123,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Counts, SortOnDevice,
 TEST_F(OnDevice, ScanSaturates) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({ScanProgram, "scan.cl", {}});
+  L.build(kernels::scan::Program{});
   Sorter S(L);
   const cl::Buffer Out = L.allocate("sums", 4 * 1001);
   S.scan(upload(L, std::vector<uint32_t>(1000, 1U << 28)), Out, 1000);
@@ -151,17 +155,22 @@ public:
 
 class KernelOnDevice : public OnDevice {
 protected:
+  struct Test {
+    static constexpr const char *ProgramFile = "test.cl", *KernelName = "test";
+    Argument<cl::Buffer> in, out;
+    auto arguments() const { return std::tie(in, out); }
+  };
   /// Runs the kernel `test` of \p Folder, \p PerItem floats in and out a
   /// work-item.
   std::vector<float> runTest(const KernelFolder &Folder,
                              const std::vector<float> &In, unsigned PerItem) {
     Launcher L(*Dev, Folder.Path, {});
     L.beginStage(Stage::Blend);
-    L.build({"test", "test.cl", {}});
+    L.build({"test.cl", {}});
     const cl::Buffer From = L.allocate("in", 4 * In.size());
     const cl::Buffer To = L.allocate("out", 4 * In.size());
     L.write("in", From, In.data(), 4 * In.size());
-    L.run("test", "test", In.size() / PerItem, 16, From, To);
+    L.run(In.size() / PerItem, 16, Test{.in = From, .out = To});
     std::vector<float> Out(In.size());
     L.read("out", Out.data(), To, 4 * Out.size());
     EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
@@ -250,12 +259,13 @@ TEST_F(OnDevice, MergeIsTheSumOfItsParts) {
       }
     Launcher L(*Dev, "", {});
     L.beginStage(Stage::Blend);
-    L.build({MergeProgram, "merge.cl", {}});
+    L.build(kernels::merge::Program{});
     const cl::Buffer From = L.allocate("parts", 4 * In.size());
     const cl::Buffer To = L.allocate("pixels", 4 * Want.size());
     L.write("parts", From, In.data(), 4 * In.size());
-    L.run(MergeProgram, "merge", (Count + 15) / 16 * 16, 16, From, To, Count,
-          Parts);
+    L.run((Count + 15) / 16 * 16, 16,
+          kernels::merge::merge{
+              .parts = From, .pixels = To, .count = Count, .num_parts = Parts});
     std::vector<float> Out(Want.size());
     L.read("pixels", Out.data(), To, 4 * Out.size());
     ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
@@ -279,11 +289,13 @@ TEST_F(OnDevice, TilesAreOrderedByListLength) {
   });
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
-  L.build({TilesProgram, "tiles.cl", {"USE_INTERSECT_TAGS=1"}});
+  L.build(
+      kernels::tiles::Program{.USE_INTERSECT_TAGS = EffectSwitch::compiled()});
   const auto Count = static_cast<uint32_t>(Want.size());
   const cl::Buffer Order = L.allocate("order", 4 * Want.size());
-  L.run(TilesProgram, "order_tiles", (Count + 15) / 16 * 16, 16,
-        upload(L, Ranges), Order, Count);
+  L.run((Count + 15) / 16 * 16, 16,
+        kernels::tiles::order_tiles{
+            .ranges = upload(L, Ranges), .order = Order, .tiles = Count});
   EXPECT_EQ(download(L, Order, Count), Want);
 }
 

@@ -37,7 +37,7 @@ std::string explain(const RenderPlan &Plan) {
   std::string Text;
   for (const ProgramSpec &P : Plan.Programs)
     Text +=
-        fmt::format("program {}: {}{}{}\n", P.Name, P.File,
+        fmt::format("program {}: {}{}{}\n", P.name(), P.File,
                     P.Defines.empty() ? "" : "; ", fmt::join(P.Defines, " "));
   const EffectKind *Last = nullptr;
   for (const EffectDecision &D : Plan.Effects.decisions()) {

@@ -1,6 +1,17 @@
 #include "render/Pipeline.h"
 
 #include "effects/Registry.h"
+#include "kernels/blend.cl.h"
+#include "kernels/blend_by_ray.cl.h"
+#include "kernels/cull_blocks.cl.h"
+#include "kernels/depth.cl.h"
+#include "kernels/merge.cl.h"
+#include "kernels/normals.cl.h"
+#include "kernels/project.cl.h"
+#include "kernels/rasterize.cl.h"
+#include "kernels/ray_frames.cl.h"
+#include "kernels/tiles.cl.h"
+#include "kernels/windows.cl.h"
 #include "picture/View.h"
 #include "render/Planes.h"
 
@@ -9,6 +20,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace vorion::splat {
@@ -147,18 +159,22 @@ void Pipeline::project(const Camera &C) {
   const std::size_t Items = Launch.device().groupsAtOnce() * Lanes;
   const cl::Buffer Seen =
       Launch.allocate("what is seen", sizeof(splat_seen) * Items);
-  const auto Run = [&](const auto &...More) {
-    Launch.run(
-        ProjectProgram, "project", Items, Lanes, Current.Camera,
-        Current.Gaussians.Geometry, Current.Gaussians.Sh, Current.Records,
-        Current.Depths.Keys, Current.Rectangles, Seen, Current.Gaussians.Count,
-        More...,
-        cl::Local(hasMoreThanView() ? LENS_LOCAL_BYTES : PROJECT_LOCAL_BYTES));
-  };
+  std::optional<cl::Buffer> Verdicts;
   if (Plan.done(effects::CullBlocks))
-    Run(cullBlocks());
-  else
-    Run();
+    Verdicts = cullBlocks();
+  Launch.run(Items, Lanes,
+             kernels::project::project{
+                 .camera = Current.Camera,
+                 .geometry = Current.Gaussians.Geometry,
+                 .sh = Current.Gaussians.Sh,
+                 .records = Current.Records,
+                 .depths = Current.Depths.Keys,
+                 .rectangles = Current.Rectangles,
+                 .items = Seen,
+                 .count = Current.Gaussians.Count,
+                 .verdicts = Verdicts,
+                 .w = cl::Local(hasMoreThanView() ? LENS_LOCAL_BYTES
+                                                  : PROJECT_LOCAL_BYTES)});
   std::vector<splat_seen> Host(Items);
   Launch.read("what is seen", Host.data(), Seen, sizeof(splat_seen) * Items);
   uint64_t Pairs = 0;
@@ -179,8 +195,12 @@ void Pipeline::project(const Camera &C) {
 cl::Buffer Pipeline::cullBlocks() {
   const uint32_t Blocks = blocksOf(Current.Gaussians.Count);
   cl::Buffer Verdicts = words("verdicts of blocks", Blocks);
-  Launch.run(CullProgram, "cull_blocks", itemsFor(Blocks), GroupSize,
-             Current.Camera, Current.Gaussians.Bounds, Verdicts, Blocks);
+  Launch.run(
+      itemsFor(Blocks), GroupSize,
+      kernels::cull_blocks::cull_blocks{.view = Current.Camera,
+                                        .bounds = Current.Gaussians.Bounds,
+                                        .verdicts = Verdicts,
+                                        .blocks = Blocks});
   return Verdicts;
 }
 
@@ -246,9 +266,15 @@ void Pipeline::countPairs() {
   const Sorter::Share By = Sort.share(Current.Visible);
   Current.Ordered = words("tile rectangles", 2 * uint64_t{Current.Visible});
   Current.Sums = words("sums of pairs", By.items());
-  Launch.run(TilesProgram, "count_tiles", By.items(), By.Lanes, Current.Order,
-             Current.Rectangles, Current.drawn(), Current.Ordered, Current.Sums,
-             Current.Visible, By.Chunk, Current.View.tiles[0]);
+  Launch.run(By.items(), By.Lanes,
+             kernels::tiles::count_tiles{.order = Current.Order,
+                                         .rectangles = Current.Rectangles,
+                                         .stride = Current.drawn(),
+                                         .ordered = Current.Ordered,
+                                         .sums = Current.Sums,
+                                         .count = Current.Visible,
+                                         .chunk = By.Chunk,
+                                         .tiles_x = Current.View.tiles[0]});
 }
 
 void Pipeline::duplicate() {
@@ -257,10 +283,17 @@ void Pipeline::duplicate() {
                     words("Gaussians of pairs", Current.Pairs)};
   Current.Places = words("places of pairs",
                          Options.Training ? uint64_t{Current.Visible} + 1 : 1);
-  Launch.run(TilesProgram, "duplicate", By.items(), By.Lanes, Current.Order,
-             Current.Ordered, Current.Sums, Current.ByTile.Keys,
-             Current.ByTile.Values, Current.Places, Current.Visible, By.Chunk,
-             Current.View.tiles[0], Current.View.effects);
+  Launch.run(By.items(), By.Lanes,
+             kernels::tiles::duplicate{.order = Current.Order,
+                                       .ordered = Current.Ordered,
+                                       .sums = Current.Sums,
+                                       .pair_tiles = Current.ByTile.Keys,
+                                       .pair_gaussians = Current.ByTile.Values,
+                                       .places = Current.Places,
+                                       .count = Current.Visible,
+                                       .chunk = By.Chunk,
+                                       .tiles_x = Current.View.tiles[0],
+                                       .effects = Current.View.effects});
 }
 
 void Pipeline::sortByTile() {
@@ -278,12 +311,16 @@ void Pipeline::sortByTile() {
     const cl::Buffer Entries = Current.ByTile.Values;
     Current.ByTile.Values = words("places of sorted pairs", Current.Pairs);
     Current.List = words("Gaussians of sorted pairs", Current.Pairs);
-    Launch.run(TilesProgram, "number", itemsFor(Current.Pairs), GroupSize,
-               Current.ByTile.Values, Current.Pairs);
+    Launch.run(itemsFor(Current.Pairs), GroupSize,
+               kernels::tiles::number{.values = Current.ByTile.Values,
+                                      .count = Current.Pairs});
     Current.ByTile = Sort.sort(Current.ByTile, Current.ByTile, Other,
                                Current.Pairs, Bits, Wanted);
-    Launch.run(TilesProgram, "look_up", itemsFor(Current.Pairs), GroupSize,
-               Current.ByTile.Values, Entries, Current.List, Current.Pairs);
+    Launch.run(itemsFor(Current.Pairs), GroupSize,
+               kernels::tiles::look_up{.places = Current.ByTile.Values,
+                                       .values = Entries,
+                                       .found = Current.List,
+                                       .count = Current.Pairs});
   } else {
     Current.ByTile = Sort.sort(Current.ByTile, Current.ByTile, Other,
                                Current.Pairs, Bits, Wanted);
@@ -292,9 +329,11 @@ void Pipeline::sortByTile() {
   Current.Ranges = words("tile ranges", 2 * uint64_t{Current.tiles()});
   if (OnePass)
     return Sort.rangesOfKeys(Current.Ranges, Current.tiles());
-  Launch.run(TilesProgram, "tile_ranges", itemsFor(Current.tiles()), GroupSize,
-             Current.ByTile.Keys, Current.Ranges, Current.Pairs,
-             Current.tiles());
+  Launch.run(itemsFor(Current.tiles()), GroupSize,
+             kernels::tiles::tile_ranges{.pair_tiles = Current.ByTile.Keys,
+                                         .ranges = Current.Ranges,
+                                         .pairs = Current.Pairs,
+                                         .tiles = Current.tiles()});
 }
 
 /// Gives the windows what has become of the records.
@@ -306,21 +345,35 @@ void Pipeline::placeInWindows() {
       "Gaussians of windows",
       sizeof(splat_gaussian) *
           (1 + uint64_t{Current.WindowCount} * Current.Windows.stride));
-  Launch.run(WindowsProgram, "records_of_windows", itemsFor(Current.drawn()),
-             GroupSize, Current.Camera, Current.Gaussians.Geometry,
-             Current.Records, Current.Depths.Keys, Current.Rectangles,
-             Current.WindowRays, Current.Blended, Current.Gaussians.Count,
-             Current.drawn(), Current.stride(), Current.Windows);
+  Launch.run(itemsFor(Current.drawn()), GroupSize,
+             kernels::windows::records_of_windows{
+                 .view = Current.Camera,
+                 .geometries = Current.Gaussians.Geometry,
+                 .records = Current.Records,
+                 .depths = Current.Depths.Keys,
+                 .rectangles = Current.Rectangles,
+                 .crops = Current.WindowRays,
+                 .to = Current.Blended,
+                 .count = Current.Gaussians.Count,
+                 .drawn = Current.drawn(),
+                 .apart = Current.stride(),
+                 .windows = Current.Windows});
 }
 
 void Pipeline::blend() {
   if (Options.Blending == Path::Simt)
     return shade();
   prepareRasterizers();
-  Launch.run(BlendProgram, "rasterize", Launch.device().computeUnits() * Lanes,
-             Lanes, Current.Blended, Current.List, Current.Ranges,
-             Current.TileOrder, Current.Parts, Current.Last, Current.Tails,
-             Current.Statuses, blendOptions());
+  Launch.run(Launch.device().computeUnits() * Lanes, Lanes,
+             kernels::rasterize::rasterize{.records = Current.Blended,
+                                           .list = Current.List,
+                                           .ranges = Current.Ranges,
+                                           .tile_order = Current.TileOrder,
+                                           .pixels = Current.Parts,
+                                           .last = Current.Last,
+                                           .tails = Current.Tails,
+                                           .statuses = Current.Statuses,
+                                           .options = blendOptions()});
   endBlending();
 }
 
@@ -343,16 +396,22 @@ cl::Buffer Pipeline::countsOfTiles() {
 }
 
 cl::Buffer Pipeline::drawDepths() {
-  Launch.run(DepthProgram, "depths_for_colors", itemsFor(Current.drawn()),
-             GroupSize, Current.Depths.Keys, Current.Records, Current.drawn());
+  Launch.run(itemsFor(Current.drawn()), GroupSize,
+             kernels::depth::depths_for_colors{.depths = Current.Depths.Keys,
+                                               .records = Current.Records,
+                                               .count = Current.drawn()});
   return blendAgain();
 }
 
 cl::Buffer Pipeline::drawNormals() {
-  Launch.run(NormalsProgram, "normals_for_colors", itemsFor(Current.drawn()),
-             GroupSize, Current.Camera, Current.Gaussians.Geometry,
-             Current.Depths.Keys, Current.Records, Current.drawn(),
-             Current.stride());
+  Launch.run(itemsFor(Current.drawn()), GroupSize,
+             kernels::normals::normals_for_colors{
+                 .view = Current.Camera,
+                 .geometry = Current.Gaussians.Geometry,
+                 .depths = Current.Depths.Keys,
+                 .records = Current.Records,
+                 .count = Current.drawn(),
+                 .stride = Current.stride()});
   return blendAgain();
 }
 
@@ -377,23 +436,39 @@ void Pipeline::shade() {
   const cl::NDRange Items(Current.View.tiles[0] * Group, Current.View.tiles[1]);
   const cl::NDRange GroupItems(Group, 1);
   if (Plan.done(effects::RayOrder))
-    return Launch.run(BlendProgram, "blend_by_ray", Items, GroupItems,
-                      Current.Camera, Current.Blended, Current.RayFrames,
-                      Current.List, Current.Ranges, Current.Pixels,
-                      Options.Cutoff, Current.View.effects);
-  Launch.run(BlendProgram, "blend", Items, GroupItems, Current.Blended,
-             Current.List, Current.Ranges, Current.Pixels, Current.Last,
-             Current.View.size[0], Current.View.size[1], Options.Cutoff,
-             Current.View.effects);
+    return Launch.run(
+        Items, GroupItems,
+        kernels::blend_by_ray::blend_by_ray{.view = Current.Camera,
+                                            .records = Current.Blended,
+                                            .frames = Current.RayFrames,
+                                            .list = Current.List,
+                                            .ranges = Current.Ranges,
+                                            .pixels = Current.Pixels,
+                                            .cutoff = Options.Cutoff,
+                                            .effects = Current.View.effects});
+  Launch.run(Items, GroupItems,
+             kernels::blend::blend{.records = Current.Blended,
+                                   .list = Current.List,
+                                   .ranges = Current.Ranges,
+                                   .pixels = Current.Pixels,
+                                   .last = Current.Last,
+                                   .width = Current.View.size[0],
+                                   .height = Current.View.size[1],
+                                   .cutoff = Options.Cutoff,
+                                   .effects = Current.View.effects});
 }
 
 void Pipeline::prepareRays() {
   Current.RayFrames =
       Launch.allocate("Gaussians for rays",
                       sizeof(splat_ray_frame) * uint64_t{Current.drawn()});
-  Launch.run(RayFramesProgram, "ray_frames", itemsFor(Current.drawn()),
-             GroupSize, Current.Camera, Current.Gaussians.Geometry,
-             Current.Depths.Keys, Current.RayFrames, Current.drawn());
+  Launch.run(
+      itemsFor(Current.drawn()), GroupSize,
+      kernels::ray_frames::ray_frames{.view = Current.Camera,
+                                      .geometries = Current.Gaussians.Geometry,
+                                      .depths = Current.Depths.Keys,
+                                      .frames = Current.RayFrames,
+                                      .count = Current.drawn()});
 }
 
 splat_blend_options Pipeline::blendOptions() const {
@@ -436,8 +511,10 @@ void Pipeline::prepareRasterizers() {
                                       : TAIL_BYTES);
   if (Options.Deal == Dealing::LastFrame)
     return dealByLastFrame();
-  Launch.run(TilesProgram, "order_tiles", itemsFor(Current.tiles()), GroupSize,
-             Current.Ranges, Current.TileOrder, Current.tiles());
+  Launch.run(itemsFor(Current.tiles()), GroupSize,
+             kernels::tiles::order_tiles{.ranges = Current.Ranges,
+                                         .order = Current.TileOrder,
+                                         .tiles = Current.tiles()});
 }
 
 uint64_t Pipeline::wordsOfOrder() const {
@@ -453,30 +530,44 @@ uint64_t Pipeline::wordsOfOrder() const {
 void Pipeline::dealByLastFrame() {
   const uint32_t Tiles = Current.tiles();
   const cl::Buffer Ranked = words("ranks of tiles", 2 * uint64_t{Tiles});
-  Launch.run(BlendProgram, "rank_tiles", (Tiles + Lanes - 1) / Lanes * Lanes,
-             Lanes, Current.Ranges, LastRanges() ? LastRanges : Current.Ranges,
-             Current.Last, Ranked, Tiles);
-  Launch.run(BlendProgram, "deal_tiles", Lanes, Lanes, Ranked,
-             Current.TileOrder, Tiles);
+  Launch.run((Tiles + Lanes - 1) / Lanes * Lanes, Lanes,
+             kernels::rasterize::rank_tiles{
+                 .ranges = Current.Ranges,
+                 .last_ranges = LastRanges() ? LastRanges : Current.Ranges,
+                 .counts = Current.Last,
+                 .ranked = Ranked,
+                 .tiles = Tiles});
+  Launch.run(Lanes, Lanes,
+             kernels::rasterize::deal_tiles{
+                 .ranked = Ranked, .dealt = Current.TileOrder, .tiles = Tiles});
   LastRanges = Current.Ranges;
 }
 
 void Pipeline::startBlending() {
-  Launch.run(BlendProgram, "rasterize_start",
-             Launch.device().computeUnits() * Lanes, Lanes, Current.Blended,
-             Current.List, Current.Ranges, Current.TileOrder, Current.Parts,
-             Current.Last, Current.Tails, blendOptions());
+  Launch.run(
+      Launch.device().computeUnits() * Lanes, Lanes,
+      kernels::rasterize::rasterize_start{.records = Current.Blended,
+                                          .list = Current.List,
+                                          .ranges = Current.Ranges,
+                                          .tile_order = Current.TileOrder,
+                                          .pixels = Current.Parts,
+                                          .last = Current.Last,
+                                          .tails = Current.Tails,
+                                          .options = blendOptions()});
 }
 
 void Pipeline::waitForBlending() {
-  Launch.run(BlendProgram, "rasterize_wait",
-             Launch.device().computeUnits() * Lanes, Lanes, Current.Statuses);
+  Launch.run(Launch.device().computeUnits() * Lanes, Lanes,
+             kernels::rasterize::rasterize_wait{.statuses = Current.Statuses});
 }
 
 void Pipeline::endBlending() {
   if (Plan.done(effects::ZTiles))
-    Launch.run(MergeProgram, "merge", itemsFor(Current.pixels()), GroupSize,
-               Current.Parts, Current.Pixels, Current.pixels(), Options.ZTiles);
+    Launch.run(itemsFor(Current.pixels()), GroupSize,
+               kernels::merge::merge{.parts = Current.Parts,
+                                     .pixels = Current.Pixels,
+                                     .count = Current.pixels(),
+                                     .num_parts = Options.ZTiles});
   checkStatuses(Current.Statuses);
 }
 

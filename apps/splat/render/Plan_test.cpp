@@ -16,16 +16,20 @@ RenderPlan planFor(const Scene &S, const RenderOptions &O,
       EffectPlan(*parseEffectRequest(Request), {S, O, Facts, false}), O);
 }
 
-bool has(const RenderPlan &P, const char *Program, const char *Word) {
-  const auto Found = std::ranges::find(P.Programs, Program, &ProgramSpec::Name);
-  return Found != P.Programs.end() &&
-         (Found->File == Word ? 1 : 0) +
-                 std::ranges::count(Found->Defines, Word) ==
-             1;
+/// Whether the program of kernel file \p Program has the macro \p Define.
+bool has(const std::vector<ProgramSpec> &Programs, const char *Program,
+         const char *Define) {
+  const auto Found = std::ranges::find(Programs, Program, &ProgramSpec::File);
+  return Found != Programs.end() &&
+         std::ranges::count(Found->Defines, Define) == 1;
+}
+
+bool has(const RenderPlan &P, const char *Program, const char *Define) {
+  return has(P.Programs, Program, Define);
 }
 
 bool hasProgram(const RenderPlan &P, const char *Program) {
-  return std::ranges::count(P.Programs, Program, &ProgramSpec::Name) == 1;
+  return std::ranges::count(P.Programs, Program, &ProgramSpec::File) == 1;
 }
 
 TEST(Plan, OnlyWhatIsNeededIsCompiled) {
@@ -36,92 +40,89 @@ TEST(Plan, OnlyWhatIsNeededIsCompiled) {
   O.Blending = Path::Simt;
   O.Reach = Support::Box3;
   RenderPlan P = planFor(S, O);
-  EXPECT_TRUE(has(P, ProjectProgram, "USE_SH1=1"));
-  EXPECT_TRUE(has(P, ProjectProgram, "USE_SH2=0"));
-  EXPECT_TRUE(has(P, ProjectProgram, "SUPPORT_BOX3"));
-  EXPECT_TRUE(has(P, ProjectProgram, "TILE_SIZE=16"));
-  EXPECT_TRUE(has(P, ProjectProgram, "USE_ANTIALIAS=0"));
-  EXPECT_TRUE(has(P, ProjectProgram, "USE_NEAR_PLANE=0"));
-  EXPECT_TRUE(has(P, ProjectProgram, "KEEP_DEPTH(z)=((z)>0.2f)"));
-  EXPECT_TRUE(has(P, BlendProgram, "blend.cl"));
-  EXPECT_FALSE(has(P, BlendProgram, "STOP_AT_EQUAL"));
-  EXPECT_FALSE(hasProgram(P, ResolveProgram));
+  EXPECT_TRUE(has(P, "project.cl", "USE_SH1=1"));
+  EXPECT_TRUE(has(P, "project.cl", "USE_SH2=0"));
+  EXPECT_TRUE(has(P, "project.cl", "SUPPORT_BOX3"));
+  EXPECT_TRUE(has(P, "project.cl", "TILE_SIZE=16"));
+  EXPECT_TRUE(has(P, "project.cl", "USE_ANTIALIAS=0"));
+  EXPECT_TRUE(has(P, "project.cl", "USE_NEAR_PLANE=0"));
+  EXPECT_TRUE(has(P, "project.cl", "NEAR_LIMIT=0.2f"));
+  EXPECT_TRUE(has(P, "project.cl", "NEAR_IS_LEFT_OUT"));
+  EXPECT_TRUE(hasProgram(P, "blend.cl"));
+  EXPECT_FALSE(has(P, "blend.cl", "STOP_AT_EQUAL"));
+  EXPECT_FALSE(hasProgram(P, "resolve.cl"));
 
   O.Antialiased = true;
   O.Convention = Rules::Gsplat;
   O.Background[1] = 1;
   P = planFor(S, O);
-  EXPECT_TRUE(has(P, ProjectProgram, "USE_ANTIALIAS=1"));
-  EXPECT_TRUE(has(P, ProjectProgram, "KEEP_DEPTH(z)=((z)>=0.01f)"));
-  EXPECT_TRUE(has(P, BlendProgram, "STOP_AT_EQUAL"));
-  EXPECT_TRUE(hasProgram(P, ResolveProgram));
+  EXPECT_TRUE(has(P, "project.cl", "USE_ANTIALIAS=1"));
+  EXPECT_TRUE(has(P, "project.cl", "NEAR_LIMIT=0.01f"));
+  EXPECT_FALSE(has(P, "project.cl", "NEAR_IS_LEFT_OUT"));
+  EXPECT_TRUE(has(P, "blend.cl", "STOP_AT_EQUAL"));
+  EXPECT_TRUE(hasProgram(P, "resolve.cl"));
 
   O.Blending = Path::Raster;
   P = planFor(S, O);
-  EXPECT_TRUE(has(P, ProjectProgram, "TILE_SIZE=64"));
-  EXPECT_TRUE(has(P, BlendProgram, "rasterize.cl"));
-  EXPECT_TRUE(has(P, BlendProgram, "USE_ZTILES=0"));
-  EXPECT_FALSE(has(P, BlendProgram, "blend.cl"));
-  EXPECT_FALSE(hasProgram(P, MergeProgram));
+  EXPECT_TRUE(has(P, "project.cl", "TILE_SIZE=64"));
+  EXPECT_TRUE(hasProgram(P, "rasterize.cl"));
+  EXPECT_TRUE(has(P, "rasterize.cl", "USE_ZTILES=0"));
+  EXPECT_FALSE(hasProgram(P, "blend.cl"));
+  EXPECT_FALSE(hasProgram(P, "merge.cl"));
 }
 
 TEST(Plan, TheLastFrameDealsOnlyWhereAskedFor) {
   const Scene S = Scene::sized(1, 0);
   RenderOptions O;
   RenderPlan P = planFor(S, O);
-  EXPECT_FALSE(has(P, BlendProgram, "KEEP_COUNTS"));
+  EXPECT_FALSE(has(P, "rasterize.cl", "KEEP_COUNTS"));
   O.Deal = Dealing::LastFrame;
   P = planFor(S, O);
-  EXPECT_TRUE(has(P, BlendProgram, "KEEP_COUNTS"));
+  EXPECT_TRUE(has(P, "rasterize.cl", "KEEP_COUNTS"));
 }
 
 TEST(Plan, TrainingHasTilesOfItsOwnAndKeepsLastContributors) {
-  const auto Defines = [](const std::vector<ProgramSpec> &Programs,
-                          std::string_view Program, const char *Word) {
-    const auto Found = std::ranges::find(Programs, Program, &ProgramSpec::Name);
-    return std::ranges::count(Found->Defines, Word) == 1;
-  };
   RenderOptions O;
   O.Training = true;
   const auto Raster = planRender(2, O).Programs;
-  EXPECT_TRUE(Defines(Raster, ProjectProgram, "USE_SH2=1"));
-  for (const char *Program : {ProjectProgram, BlendProgram}) {
-    EXPECT_TRUE(Defines(Raster, Program, "TILE_SIZE=32"));
-    EXPECT_TRUE(Defines(Raster, Program, "TILE_HEIGHT=64"));
+  EXPECT_TRUE(has(Raster, "project.cl", "USE_SH2=1"));
+  for (const char *Program : {"project.cl", "rasterize.cl"}) {
+    EXPECT_TRUE(has(Raster, Program, "TILE_SIZE=32"));
+    EXPECT_TRUE(has(Raster, Program, "TILE_HEIGHT=64"));
   }
-  EXPECT_TRUE(Defines(Raster, BlendProgram, "KEEP_LAST"));
+  EXPECT_TRUE(has(Raster, "rasterize.cl", "KEEP_LAST"));
   O.Blending = Path::Simt;
-  EXPECT_TRUE(Defines(planRender(2, O).Programs, BlendProgram, "TILE_SIZE=16"));
+  EXPECT_TRUE(has(planRender(2, O), "blend.cl", "TILE_SIZE=16"));
   const auto InriaBack = planBackward(2, O, {});
   O.Convention = Rules::Gsplat;
   const auto GsplatBack = planBackward(2, O, {});
   for (const auto &[Program, Word] :
-       {std::pair("blend backward", "CLAMP_STOPS"),
-        std::pair("project backward", "LIMIT_FOLLOWS_DEPTH")}) {
-    EXPECT_FALSE(Defines(InriaBack, Program, Word));
-    EXPECT_TRUE(Defines(GsplatBack, Program, Word));
+       {std::pair("blend_backward.cl", "CLAMP_STOPS"),
+        std::pair("project_backward.cl", "LIMIT_FOLLOWS_DEPTH")}) {
+    EXPECT_FALSE(has(InriaBack, Program, Word));
+    EXPECT_TRUE(has(GsplatBack, Program, Word));
   }
 }
 
 TEST(Plan, AProgramKnowsTheMacrosOfItsOwnFilesOnly) {
   const RenderPlan P = planFor(Scene::sized(1, 3), {});
   for (const ProgramSpec &Program : P.Programs)
-    if (Program.Name == SortProgram || Program.Name == ScanProgram)
-      EXPECT_TRUE(Program.Defines.empty()) << Program.Name;
-  EXPECT_FALSE(has(P, TilesProgram, "USE_SH1=0"));
+    if (Program.File == "sort.cl" || Program.File == "scan.cl")
+      EXPECT_TRUE(Program.Defines.empty()) << Program.File;
+  EXPECT_FALSE(has(P, "tiles.cl", "USE_SH1=0"));
 }
 
 TEST(Plan, WhatIsNotNeutralIsBehindItsFlagUnlessAskedFor) {
   const Scene S = Scene::sized(1, 0);
   RenderOptions O;
   const RenderPlan All = planFor(S, O, "all");
-  EXPECT_TRUE(has(All, ProjectProgram, "USE_SH3=1"));
-  EXPECT_TRUE(has(All, ProjectProgram, "USE_NEAR_PLANE=1"));
-  EXPECT_FALSE(has(All, ProjectProgram, "USE_ANTIALIAS=1"));
+  EXPECT_TRUE(has(All, "project.cl", "USE_SH3=1"));
+  EXPECT_TRUE(has(All, "project.cl", "USE_NEAR_PLANE=1"));
+  EXPECT_FALSE(has(All, "project.cl", "USE_ANTIALIAS=1"));
   EXPECT_TRUE(All.Effects.compiled(effects::Antialias));
   EXPECT_FALSE(All.Effects.done(effects::Antialias));
   O.Antialiased = true;
-  EXPECT_TRUE(has(planFor(S, O, "all"), ProjectProgram, "USE_ANTIALIAS=1"));
+  EXPECT_TRUE(has(planFor(S, O, "all"), "project.cl", "USE_ANTIALIAS=1"));
 }
 
 TEST(Plan, FlagsGiveOneProgramForEveryScene) {

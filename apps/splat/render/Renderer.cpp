@@ -1,6 +1,8 @@
 #include "render/Renderer.h"
 
 #include "effects/Registry.h"
+#include "kernels/activate_scene.cl.h"
+#include "kernels/resolve.cl.h"
 #include "render/Pipeline.h"
 
 #include <array>
@@ -47,9 +49,14 @@ DepthMap readDepths(Launcher &Launch, const Frame &F,
 cl::Buffer resolve(Launcher &Launch, const Frame &F,
                    const std::array<float, 3> &Background) {
   cl::Buffer Picture = Launch.allocate("picture", 16 * uint64_t{F.pixels()});
-  Launch.run(ResolveProgram, "resolve", Launch.device().groupsAtOnce() * Lanes,
-             Lanes, F.Pixels, Picture, 4 * F.pixels(), Background[0],
-             Background[1], Background[2], F.View.effects);
+  Launch.run(Launch.device().groupsAtOnce() * Lanes, Lanes,
+             kernels::resolve::resolve{.pixels = F.Pixels,
+                                       .picture = Picture,
+                                       .values = 4 * F.pixels(),
+                                       .red = Background[0],
+                                       .green = Background[1],
+                                       .blue = Background[2],
+                                       .effects = F.View.effects});
   return Picture;
 }
 
@@ -202,8 +209,9 @@ void activate(Launcher &Launch, const RenderPlan &Plan,
   if (!Plan.Effects.done(effects::ActivatedScene))
     return;
   Launch.beginStage(Stage::Activate);
-  Launch.run(ActivateProgram, "activate_scene", itemsFor(Gaussians.Count),
-             GroupSize, Gaussians.Geometry, Gaussians.Count);
+  Launch.run(itemsFor(Gaussians.Count), GroupSize,
+             kernels::activate_scene::activate_scene{.all = Gaussians.Geometry,
+                                                     .count = Gaussians.Count});
 }
 
 Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,

@@ -55,7 +55,7 @@ Json json(const std::vector<ProgramSpec> &Programs) {
   Json All = Json::array();
   for (const ProgramSpec &P : Programs)
     All.push_back(
-        {{"name", P.Name}, {"files", {P.File}}, {"defines", P.Defines}});
+        {{"name", P.name()}, {"files", {P.File}}, {"defines", P.Defines}});
   return All;
 }
 

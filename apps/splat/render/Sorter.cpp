@@ -1,5 +1,7 @@
 #include "render/Sorter.h"
 
+#include "kernels/scan.cl.h"
+#include "kernels/sort.cl.h"
 #include "render/Plan.h"
 
 #include <algorithm>
@@ -66,11 +68,14 @@ void Sorter::scan(const cl::Buffer &In, const cl::Buffer &Out, uint32_t Count) {
   const uint32_t Chunk = std::max(LeastScanChunk, divideUp(Count, scanItems()));
   const uint32_t Items =
       divideUp(divideUp(Count, Chunk), LineWords) * LineWords;
-  Launch.run(ScanProgram, "scan_sums", Items, LineWords, In, Sums, Count,
-             Chunk);
-  Launch.run(ScanProgram, "scan_partials", 1, 1, Sums, Items);
-  Launch.run(ScanProgram, "scan_apply", Items, LineWords, In, Sums, Out, Count,
-             Chunk);
+  Launch.run(Items, LineWords,
+             kernels::scan::scan_sums{
+                 .in = In, .sums = Sums, .count = Count, .chunk = Chunk});
+  Launch.run(1, 1, kernels::scan::scan_partials{.sums = Sums, .count = Items});
+  Launch.run(
+      Items, LineWords,
+      kernels::scan::scan_apply{
+          .in = In, .sums = Sums, .out = Out, .count = Count, .chunk = Chunk});
 }
 
 Sorter::Share Sorter::share(uint32_t Count) const {
@@ -103,7 +108,9 @@ Sorter::Pairs Sorter::sort(const Pairs &Input, const Pairs &A, const Pairs &B,
 
 void Sorter::rangesOfKeys(const cl::Buffer &Ranges, uint32_t Number) {
   const uint32_t Lanes = Launch.device().lanes();
-  Launch.run(SortProgram, "sort_ranges", Lanes, Lanes, Totals, Ranges, Number);
+  Launch.run(Lanes, Lanes,
+             kernels::sort::sort_ranges{
+                 .totals = Totals, .ranges = Ranges, .digits = Number});
 }
 
 cl::Buffer Sorter::sortKept(const cl::Buffer &From, const KeptKeys &What) {
@@ -123,19 +130,42 @@ cl::Buffer Sorter::sortKept(const cl::Buffer &From, const KeptKeys &What) {
   Pairs A{{}, Words("sorted numbers")}, B{{}, Words("sorted numbers")};
   const Share S = share(What.Count);
   const Digit First{What.FirstBit, Digits.front().Bits};
-  Launch.run(SortProgram, "sort_count_kept", S.items(), S.Lanes, From,
-             Histogram, What.Count, S.Chunk, First.Shift, First.Bits, Base);
+  Launch.run(S.items(), S.Lanes,
+             kernels::sort::sort_count_kept{.keys = From,
+                                            .histogram = Histogram,
+                                            .count = What.Count,
+                                            .chunk = S.Chunk,
+                                            .shift = First.Shift,
+                                            .digit_bits = First.Bits,
+                                            .base = Base});
   sumUp(S.Groups, First);
   bool InWords = LeavesWords(Digits.front());
   if (InWords) {
-    Launch.run(SortProgram, "sort_scatter_kept_to_words", S.items(), S.Lanes,
-               From, Histogram, Totals, A.Values, What.Count, S.Chunk,
-               First.Shift, First.Bits, Base, ValueBits);
+    Launch.run(
+        S.items(), S.Lanes,
+        kernels::sort::sort_scatter_kept_to_words{.keys = From,
+                                                  .histogram = Histogram,
+                                                  .totals = Totals,
+                                                  .words_out = A.Values,
+                                                  .count = What.Count,
+                                                  .chunk = S.Chunk,
+                                                  .shift = First.Shift,
+                                                  .digit_bits = First.Bits,
+                                                  .base = Base,
+                                                  .value_bits = ValueBits});
   } else {
     A.Keys = Words("sorted keys");
-    Launch.run(SortProgram, "sort_scatter_kept", S.items(), S.Lanes, From,
-               Histogram, Totals, A.Keys, A.Values, What.Count, S.Chunk,
-               First.Shift, First.Bits, Base);
+    Launch.run(S.items(), S.Lanes,
+               kernels::sort::sort_scatter_kept{.keys = From,
+                                                .histogram = Histogram,
+                                                .totals = Totals,
+                                                .keys_out = A.Keys,
+                                                .values_out = A.Values,
+                                                .count = What.Count,
+                                                .chunk = S.Chunk,
+                                                .shift = First.Shift,
+                                                .digit_bits = First.Bits,
+                                                .base = Base});
   }
   for (const Digit &D : std::span(Digits).subspan(1)) {
     if (InWords) {
@@ -154,24 +184,39 @@ cl::Buffer Sorter::sortKept(const cl::Buffer &From, const KeptKeys &What) {
 
 void Sorter::count(const cl::Buffer &Keys, uint32_t Count, Digit D) {
   const Share S = share(Count);
-  Launch.run(SortProgram, "sort_count", S.items(), S.Lanes, Keys, Histogram,
-             Count, S.Chunk, D.Shift, D.Bits);
+  Launch.run(S.items(), S.Lanes,
+             kernels::sort::sort_count{.keys = Keys,
+                                       .histogram = Histogram,
+                                       .count = Count,
+                                       .chunk = S.Chunk,
+                                       .shift = D.Shift,
+                                       .digit_bits = D.Bits});
   sumUp(S.Groups, D);
 }
 
 void Sorter::sumUp(uint32_t Stretches, Digit D) {
-  Launch.run(SortProgram, "sort_offsets", D.count(),
-             std::min(D.count(), LineWords), Histogram, Totals, Stretches,
-             D.count());
+  Launch.run(D.count(), std::min(D.count(), LineWords),
+             kernels::sort::sort_offsets{.histogram = Histogram,
+                                         .totals = Totals,
+                                         .groups = Stretches,
+                                         .digits = D.count()});
 }
 
 void Sorter::scatter(const Pairs &From, const Pairs &To, uint32_t Count,
                      Digit D) {
   count(From.Keys, Count, D);
   const Share S = share(Count);
-  Launch.run(SortProgram, "sort_scatter", S.items(), S.Lanes, From.Keys,
-             From.Values, Histogram, Totals, To.Keys, To.Values, Count, S.Chunk,
-             D.Shift, D.Bits);
+  Launch.run(S.items(), S.Lanes,
+             kernels::sort::sort_scatter{.keys = From.Keys,
+                                         .values = From.Values,
+                                         .histogram = Histogram,
+                                         .totals = Totals,
+                                         .keys_out = To.Keys,
+                                         .values_out = To.Values,
+                                         .count = Count,
+                                         .chunk = S.Chunk,
+                                         .shift = D.Shift,
+                                         .digit_bits = D.Bits});
 }
 
 /// Of words whose digit lies at once above the value.
@@ -179,17 +224,32 @@ void Sorter::scatterWords(const cl::Buffer &From, const cl::Buffer &To,
                           uint32_t Count, Digit D) {
   count(From, Count, D);
   const Share S = share(Count);
-  Launch.run(SortProgram, "sort_scatter_words", S.items(), S.Lanes, From,
-             Histogram, Totals, To, Count, S.Chunk, D.Bits, D.Shift);
+  Launch.run(S.items(), S.Lanes,
+             kernels::sort::sort_scatter_words{.words = From,
+                                               .histogram = Histogram,
+                                               .totals = Totals,
+                                               .words_out = To,
+                                               .count = Count,
+                                               .chunk = S.Chunk,
+                                               .digit_bits = D.Bits,
+                                               .value_bits = D.Shift});
 }
 
 void Sorter::scatterToWords(const Pairs &From, const cl::Buffer &To,
                             uint32_t Count, Digit D, unsigned ValueBits) {
   count(From.Keys, Count, D);
   const Share S = share(Count);
-  Launch.run(SortProgram, "sort_scatter_to_words", S.items(), S.Lanes,
-             From.Keys, From.Values, Histogram, Totals, To, Count, S.Chunk,
-             D.Shift, D.Bits, ValueBits);
+  Launch.run(S.items(), S.Lanes,
+             kernels::sort::sort_scatter_to_words{.keys = From.Keys,
+                                                  .values = From.Values,
+                                                  .histogram = Histogram,
+                                                  .totals = Totals,
+                                                  .words_out = To,
+                                                  .count = Count,
+                                                  .chunk = S.Chunk,
+                                                  .shift = D.Shift,
+                                                  .digit_bits = D.Bits,
+                                                  .value_bits = ValueBits});
 }
 
 } // namespace vorion::splat

@@ -1,30 +1,32 @@
 #include "train/optimize/Adam.h"
 
+#include "kernels/adam.cl.h"
+#include "kernels/regularize.cl.h"
 #include "picture/Layout.h"
 #include "render/Pipeline.h"
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace vorion::splat {
 
 ProgramSpec adamProgram(MomentsOn Where) {
-  ProgramSpec P{AdamProgram, "adam.cl", {}};
-  if (Where == MomentsOn::Host)
-    P.Defines.emplace_back("MOMENTS_BY_PLANE");
-  return P;
+  return kernels::adam::Program{.MOMENTS_BY_PLANE = Where == MomentsOn::Host};
 }
 
-ProgramSpec regularizeProgram() {
-  return {RegularizeProgram, "regularize.cl", {}};
-}
+ProgramSpec regularizeProgram() { return kernels::regularize::Program{}; }
 
 void regularize(Launcher &L, const TrainSettings &Settings,
                 const DeviceScene &S, const PlanePair &Gradients) {
-  L.run(RegularizeProgram, "regularize", itemsFor(S.Count), GroupSize,
-        S.Parameters.Geometry, Gradients.Geometry, S.Count,
-        static_cast<float>(Settings.OpacityWeight / S.Count),
-        static_cast<float>(Settings.ScaleWeight / (3.0 * S.Count)));
+  L.run(
+      itemsFor(S.Count), GroupSize,
+      kernels::regularize::regularize{
+          .geometry = S.Parameters.Geometry,
+          .gradients = Gradients.Geometry,
+          .count = S.Count,
+          .opacity = static_cast<float>(Settings.OpacityWeight / S.Count),
+          .scale = static_cast<float>(Settings.ScaleWeight / (3.0 * S.Count))});
 }
 
 void stepAdam(Launcher &L, const TrainSettings &Settings, DeviceScene &S,
@@ -52,24 +54,32 @@ void stepAdam(Launcher &L, const TrainSettings &Settings, DeviceScene &S,
     const cl::Buffer RateBuffer = L.allocate("rates", 4 * Rates.size());
     L.write("rates", RateBuffer, Rates.data(), 4 * Rates.size());
     const auto Run = [&](const cl::Buffer &First, const cl::Buffer &Second,
-                         uint32_t Planes, auto... Plane) {
-      L.run(AdamProgram, "adam", cl::NDRange(itemsFor(S.Count)[0], Planes),
-            cl::NDRange(GroupSize, 1), P, G, First, Second, RateBuffer, S.Count,
-            static_cast<float>(Settings.Beta1),
-            static_cast<float>(1 - Settings.Beta1),
-            static_cast<float>(Settings.Beta2),
-            static_cast<float>(1 - Settings.Beta2),
-            static_cast<float>(1 / std::sqrt(Rest)),
-            static_cast<float>(Settings.Epsilon), Plane...);
+                         uint32_t Planes, std::optional<uint32_t> Own) {
+      L.run(cl::NDRange(itemsFor(S.Count)[0], Planes),
+            cl::NDRange(GroupSize, 1),
+            kernels::adam::adam{.parameters = P,
+                                .gradients = G,
+                                .first = First,
+                                .second = Second,
+                                .rates = RateBuffer,
+                                .count = S.Count,
+                                .beta1 = static_cast<float>(Settings.Beta1),
+                                .rest1 = static_cast<float>(1 - Settings.Beta1),
+                                .beta2 = static_cast<float>(Settings.Beta2),
+                                .rest2 = static_cast<float>(1 - Settings.Beta2),
+                                .correction =
+                                    static_cast<float>(1 / std::sqrt(Rest)),
+                                .epsilon = static_cast<float>(Settings.Epsilon),
+                                .own_plane = Own});
     };
-    MomentPlanes::changeBoth(L, M, V, S.Count,
-                             static_cast<uint32_t>(Rates.size()),
-                             [&](const cl::Buffer &OfM, const cl::Buffer &OfV,
-                                 uint32_t First, uint32_t Planes) {
-                               M.areOn() == MomentsOn::Host
-                                   ? Run(OfM, OfV, Planes, First)
-                                   : Run(OfM, OfV, Planes);
-                             });
+    MomentPlanes::changeBoth(
+        L, M, V, S.Count, static_cast<uint32_t>(Rates.size()),
+        [&](const cl::Buffer &OfM, const cl::Buffer &OfV, uint32_t First,
+            uint32_t Planes) {
+          Run(OfM, OfV, Planes,
+              M.areOn() == MomentsOn::Host ? std::optional(First)
+                                           : std::nullopt);
+        });
   };
   Step(Geometry, S.Parameters.Geometry, Gradients.Geometry, S.First.Geometry,
        S.Second.Geometry);

@@ -6,10 +6,8 @@
 
 namespace vorion::splat {
 
-inline constexpr const char *AdamProgram = "adam";
 ProgramSpec adamProgram(MomentsOn Where = MomentsOn::Device);
 /// For weights of opacities and scales in the loss.
-inline constexpr const char *RegularizeProgram = "regularize";
 ProgramSpec regularizeProgram();
 
 constexpr bool isRegularized(const TrainSettings &S) {

@@ -1,5 +1,9 @@
 #include "train/optimize/Density.h"
 
+#include "kernels/batch.cl.h"
+#include "kernels/density.cl.h"
+#include "kernels/scan.cl.h"
+#include "kernels/sort.cl.h"
 #include "picture/Layout.h"
 #include "render/Pipeline.h"
 #include "render/Plan.h"
@@ -16,12 +20,11 @@ constexpr float Never = std::numeric_limits<float>::infinity();
 } // namespace
 
 std::vector<ProgramSpec> densityPrograms() {
-  return {{DensityProgram, "density.cl", {}},
-          {ScanProgram, "scan.cl", {}},
-          {SortProgram, "sort.cl", {}}};
+  return {kernels::density::Program{}, kernels::scan::Program{},
+          kernels::sort::Program{}};
 }
 
-ProgramSpec batchProgram() { return {BatchProgram, "batch.cl", {}}; }
+ProgramSpec batchProgram() { return kernels::batch::Program{}; }
 
 namespace {
 
@@ -56,10 +59,18 @@ DensityNotes DensityControl::download(const Notebook &From, uint32_t Count) {
 
 void DensityControl::note(const Notebook &In, const SeenView &V,
                           uint32_t Count) {
-  Launch.run(DensityProgram, "density_note", itemsFor(Count), GroupSize,
-             V.Records, V.Depths, V.Gradients, V.MeanPlane, In.GradientSums,
-             In.Views, In.Radii, Count, 0.5F * static_cast<float>(V.Width),
-             0.5F * static_cast<float>(V.Height));
+  Launch.run(itemsFor(Count), GroupSize,
+             kernels::density::density_note{
+                 .records = V.Records,
+                 .depths = V.Depths,
+                 .gradients = V.Gradients,
+                 .plane = V.MeanPlane,
+                 .sums = In.GradientSums,
+                 .views = In.Views,
+                 .radii = In.Radii,
+                 .count = Count,
+                 .half_width = 0.5F * static_cast<float>(V.Width),
+                 .half_height = 0.5F * static_cast<float>(V.Height)});
 }
 
 void DensityControl::note(const SeenView &V, uint32_t Count) {
@@ -75,9 +86,14 @@ DensityNotes DensityControl::noteAlone(const SeenView &V, uint32_t Count) {
 void DensityControl::merge(const DensityNotes &OfAView) {
   const auto Count = static_cast<uint32_t>(OfAView.Views.size());
   const Notebook Added = upload(OfAView);
-  Launch.run(BatchProgram, "batch_note", itemsFor(Count), GroupSize,
-             Noted.GradientSums, Noted.Views, Noted.Radii, Added.GradientSums,
-             Added.Views, Added.Radii, Count);
+  Launch.run(itemsFor(Count), GroupSize,
+             kernels::batch::batch_note{.sums = Noted.GradientSums,
+                                        .views = Noted.Views,
+                                        .radii = Noted.Radii,
+                                        .sum = Added.GradientSums,
+                                        .view = Added.Views,
+                                        .radius = Added.Radii,
+                                        .count = Count});
 }
 
 /// The sum of \p Values; their prefix sums are left in Places.
@@ -101,16 +117,25 @@ uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
                  : Never;
   Rule.most_radius =
       DropsLarge ? static_cast<float>(Settings.MostRadius) : Never;
-  Launch.run(DensityProgram, "density_decide", itemsFor(S.Count), GroupSize,
-             S.Parameters.Geometry, Noted.GradientSums, Noted.Views,
-             Noted.Radii, Fates, Counts, Keys, Order, S.Count, Rule);
+  Launch.run(itemsFor(S.Count), GroupSize,
+             kernels::density::density_decide{.geometry = S.Parameters.Geometry,
+                                              .sums = Noted.GradientSums,
+                                              .views = Noted.Views,
+                                              .radii = Noted.Radii,
+                                              .fates = Fates,
+                                              .counts = Counts,
+                                              .keys = Keys,
+                                              .order = Order,
+                                              .count = S.Count,
+                                              .rule = Rule});
   return total(Counts, S.Count);
 }
 
 void DensityControl::limit(uint32_t Count, uint32_t Total) {
   const cl::Buffer Grows = words("growing Gaussians", Count);
-  Launch.run(DensityProgram, "density_grows", itemsFor(Count), GroupSize,
-             Counts, Grows, Count);
+  Launch.run(itemsFor(Count), GroupSize,
+             kernels::density::density_grows{
+                 .counts = Counts, .grows = Grows, .count = Count});
   // Each that grows becomes one more.
   const uint32_t Kept = Total - total(Grows, Count);
   const uint32_t More =
@@ -121,8 +146,12 @@ void DensityControl::limit(uint32_t Count, uint32_t Total) {
                         words("sorted Gaussians", Count)};
   const Sorter::Pairs Sorted =
       Sort.sort({Keys, Order}, A, B, Count, {0, 32}, Sorter::Keys::Lost);
-  Launch.run(DensityProgram, "density_limit", itemsFor(Count), GroupSize,
-             Sorted.Values, Fates, Counts, Count, More);
+  Launch.run(itemsFor(Count), GroupSize,
+             kernels::density::density_limit{.order = Sorted.Values,
+                                             .fates = Fates,
+                                             .counts = Counts,
+                                             .count = Count,
+                                             .most = More});
 }
 
 /// Counted on the host: a kernel would be one for every run.
@@ -158,10 +187,15 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   New.ShDegree = S.ShDegree;
   const auto Move = [&](const cl::Buffer &From, const cl::Buffer &To,
                         uint32_t Planes, bool Moments) {
-    Launch.run(DensityProgram, "density_copy",
-               cl::NDRange(itemsFor(S.Count)[0], Planes),
-               cl::NDRange(GroupSize, 1), From, To, Fates, Places, S.Count,
-               After, Moments ? 1U : 0U);
+    Launch.run(cl::NDRange(itemsFor(S.Count)[0], Planes),
+               cl::NDRange(GroupSize, 1),
+               kernels::density::density_copy{.in = From,
+                                              .out = To,
+                                              .fates = Fates,
+                                              .places = Places,
+                                              .count = S.Count,
+                                              .new_count = After,
+                                              .moments = Moments ? 1U : 0U});
   };
   New.Parameters = New.allocate(Launch, After);
   Move(S.Parameters.Geometry, New.Parameters.Geometry, GEOMETRY_PLANES, false);
@@ -171,14 +205,29 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
                       uint32_t Planes) { Move(From, To, Planes, true); });
   const auto SeedLow = static_cast<uint32_t>(Seed);
   const auto SeedHigh = static_cast<uint32_t>(Seed >> 32);
-  Launch.run(DensityProgram, "density_split", itemsFor(S.Count), GroupSize,
-             S.Parameters.Geometry, New.Parameters.Geometry, S.Identities,
-             Fates, Places, S.Count, After, SeedLow, SeedHigh, Iteration,
-             static_cast<float>(std::log(Settings.SplitShrink)));
+  Launch.run(itemsFor(S.Count), GroupSize,
+             kernels::density::density_split{
+                 .geometry = S.Parameters.Geometry,
+                 .new_geometry = New.Parameters.Geometry,
+                 .identities = S.Identities,
+                 .fates = Fates,
+                 .places = Places,
+                 .count = S.Count,
+                 .new_count = After,
+                 .seed_low = SeedLow,
+                 .seed_high = SeedHigh,
+                 .iteration = Iteration,
+                 .shrink = static_cast<float>(std::log(Settings.SplitShrink))});
   New.Identities = words("Gaussians' identities", After);
-  Launch.run(DensityProgram, "density_identify", itemsFor(S.Count), GroupSize,
-             S.Identities, New.Identities, Fates, Places, S.Count, SeedLow,
-             SeedHigh, Iteration);
+  Launch.run(itemsFor(S.Count), GroupSize,
+             kernels::density::density_identify{.in = S.Identities,
+                                                .out = New.Identities,
+                                                .fates = Fates,
+                                                .places = Places,
+                                                .count = S.Count,
+                                                .seed_low = SeedLow,
+                                                .seed_high = SeedHigh,
+                                                .iteration = Iteration});
   S = New;
   Fates = Counts = Places = Keys = Order = {};
   restart(After);
@@ -186,16 +235,19 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
 }
 
 void DensityControl::resetOpacity(DeviceScene &S) {
-  Launch.run(DensityProgram, "reset_opacity", itemsFor(S.Count), GroupSize,
-             S.Parameters.Geometry, S.Count,
-             opacityLogit(Settings.ResetOpacity));
+  Launch.run(itemsFor(S.Count), GroupSize,
+             kernels::density::reset_opacity{
+                 .geometry = S.Parameters.Geometry,
+                 .count = S.Count,
+                 .most_logit = opacityLogit(Settings.ResetOpacity)});
   for (MomentPair *M : {&S.First, &S.Second})
-    M->Geometry.changePlane(Launch, S.Count, PLANE_LOGIT,
-                            [&](const cl::Buffer &Values, uint32_t At) {
-                              Launch.run(DensityProgram, "forget_plane",
-                                         itemsFor(S.Count), GroupSize, Values,
-                                         At, S.Count);
-                            });
+    M->Geometry.changePlane(
+        Launch, S.Count, PLANE_LOGIT,
+        [&](const cl::Buffer &Values, uint32_t At) {
+          Launch.run(itemsFor(S.Count), GroupSize,
+                     kernels::density::forget_plane{
+                         .moments = Values, .plane = At, .count = S.Count});
+        });
 }
 
 } // namespace vorion::splat

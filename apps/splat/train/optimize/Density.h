@@ -9,9 +9,7 @@
 
 namespace vorion::splat {
 
-inline constexpr const char *DensityProgram = "density";
 /// Adds up views (kernels/batch.cl).
-inline constexpr const char *BatchProgram = "batch";
 ProgramSpec batchProgram();
 /// The programs that density control runs; scan and sort among them.
 std::vector<ProgramSpec> densityPrograms();

@@ -1,5 +1,6 @@
 #include "train/optimize/Exposure.h"
 
+#include "kernels/exposure.cl.h"
 #include "render/Pipeline.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ float identity(std::size_t Term) { return Term % 5 == 0 ? 1.0F : 0.0F; }
 
 } // namespace
 
-ProgramSpec exposureProgram() { return {ExposureProgram, "exposure.cl", {}}; }
+ProgramSpec exposureProgram() { return kernels::exposure::Program{}; }
 
 void Exposures::restart() {
   std::vector<float> From(areOn() ? Terms * Pictures : 0);
@@ -37,8 +38,11 @@ cl::Buffer Exposures::apply(const cl::Buffer &Picture, uint32_t Pixels,
                             std::size_t View) {
   const cl::Buffer Exposed =
       Launch.allocate("exposed picture", 16 * uint64_t{Pixels});
-  Launch.run(ExposureProgram, "exposure_apply", itemsFor(Pixels), GroupSize,
-             Picture, Exposed, upload(View), Pixels);
+  Launch.run(itemsFor(Pixels), GroupSize,
+             kernels::exposure::exposure_apply{.picture = Picture,
+                                               .exposed = Exposed,
+                                               .matrix = upload(View),
+                                               .pixels = Pixels});
   return Exposed;
 }
 
@@ -49,8 +53,13 @@ ExposureMatrix Exposures::back(const cl::Buffer &Picture,
   std::vector<float> Sums(Terms * Groups);
   const cl::Buffer Parts =
       Launch.allocate("exposure's gradients", 4 * Sums.size());
-  Launch.run(ExposureProgram, "exposure_back", Groups * Lanes, Lanes, Picture,
-             Gradient, upload(View), Parts, Pixels, Stretch);
+  Launch.run(Groups * Lanes, Lanes,
+             kernels::exposure::exposure_back{.picture = Picture,
+                                              .gradient = Gradient,
+                                              .matrix = upload(View),
+                                              .sums = Parts,
+                                              .pixels = Pixels,
+                                              .stretch = Stretch});
   Launch.read("exposure's gradients", Sums.data(), Parts, 4 * Sums.size());
   ExposureMatrix By{};
   for (std::size_t I = 0; I < Sums.size(); ++I)

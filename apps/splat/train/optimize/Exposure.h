@@ -10,7 +10,6 @@
 
 namespace vorion::splat {
 
-inline constexpr const char *ExposureProgram = "exposure";
 ProgramSpec exposureProgram();
 
 /// From the scene's colours to a picture's: rows of red, green and blue, each

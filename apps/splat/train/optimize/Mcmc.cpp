@@ -1,5 +1,6 @@
 #include "train/optimize/Mcmc.h"
 
+#include "kernels/mcmc.cl.h"
 #include "picture/Layout.h"
 #include "render/Pipeline.h"
 #include "scene/Activation.h"
@@ -22,7 +23,7 @@ const cl::NDRange PlaneGroup(GroupSize, 1);
 
 } // namespace
 
-ProgramSpec mcmcProgram() { return {McmcProgram, "mcmc.cl", {}}; }
+ProgramSpec mcmcProgram() { return kernels::mcmc::Program{}; }
 
 /// The sum of \p Values, whose prefix sums go to \p Sums.
 uint32_t McmcControl::total(const cl::Buffer &Values, const cl::Buffer &Sums,
@@ -41,9 +42,13 @@ McmcControl::Weights McmcControl::weigh(const DeviceScene &S, float DeadLogit) {
   const cl::Buffer Each = words("Gaussians' weights", S.Count);
   Weights W{words("sums of weights", uint64_t{S.Count} + 1),
             words("transparent Gaussians", S.Count), 0};
-  Launch.run(McmcProgram, "mcmc_weigh", itemsFor(S.Count), GroupSize,
-             S.Parameters.Geometry, Each, W.Dead, S.Count, DeadLogit,
-             static_cast<float>(Scale));
+  Launch.run(itemsFor(S.Count), GroupSize,
+             kernels::mcmc::mcmc_weigh{.geometry = S.Parameters.Geometry,
+                                       .weights = Each,
+                                       .dead = W.Dead,
+                                       .count = S.Count,
+                                       .dead_logit = DeadLogit,
+                                       .scale = static_cast<float>(Scale)});
   W.Total = total(Each, W.Sums, S.Count);
   if (!Launch.failure() && W.Total == 0)
     Launch.fail({"",
@@ -59,24 +64,42 @@ McmcControl::Draw McmcControl::draw(const DeviceScene &S, const Weights &W,
   Draw D{words("drawn Gaussians", Draws), words("times drawn", S.Count)};
   const std::vector<uint32_t> None(S.Count, 0);
   Launch.write("times drawn", D.Drawn, None.data(), 4 * None.size());
-  Launch.run(McmcProgram, "mcmc_draw", itemsFor(Draws), GroupSize, W.Sums,
-             D.Sources, D.Drawn, S.Count, Draws, W.Total, seedLow(), seedHigh(),
-             Kind, Iteration);
+  Launch.run(itemsFor(Draws), GroupSize,
+             kernels::mcmc::mcmc_draw{.sums = W.Sums,
+                                      .sources = D.Sources,
+                                      .drawn = D.Drawn,
+                                      .count = S.Count,
+                                      .draws = Draws,
+                                      .total = W.Total,
+                                      .seed_low = seedLow(),
+                                      .seed_high = seedHigh(),
+                                      .kind = Kind,
+                                      .iteration = Iteration});
   return D;
 }
 
 void McmcControl::share(DeviceScene &S, const Draw &D) {
-  Launch.run(McmcProgram, "mcmc_share", itemsFor(S.Count), GroupSize,
-             S.Parameters.Geometry, D.Drawn, S.Count,
-             static_cast<float>(Settings.LeastOpacity));
+  Launch.run(itemsFor(S.Count), GroupSize,
+             kernels::mcmc::mcmc_share{
+                 .geometry = S.Parameters.Geometry,
+                 .drawn = D.Drawn,
+                 .count = S.Count,
+                 .least_opacity = static_cast<float>(Settings.LeastOpacity)});
 }
 
 void McmcControl::identify(const cl::Buffer &Identities, const Draw &D,
                            const cl::Buffer *List, uint32_t Count,
                            uint32_t Draws, unsigned Iteration) {
-  Launch.run(McmcProgram, "mcmc_identify", itemsFor(Draws), GroupSize,
-             Identities, D.Sources, List ? *List : D.Sources, List ? 1U : 0U,
-             Count, Draws, seedLow(), seedHigh(), Iteration);
+  Launch.run(itemsFor(Draws), GroupSize,
+             kernels::mcmc::mcmc_identify{.identities = Identities,
+                                          .sources = D.Sources,
+                                          .list = List ? *List : D.Sources,
+                                          .use_list = List ? 1U : 0U,
+                                          .count = Count,
+                                          .draws = Draws,
+                                          .seed_low = seedLow(),
+                                          .seed_high = seedHigh(),
+                                          .iteration = Iteration});
 }
 
 void McmcControl::relocate(DeviceScene &S, unsigned Iteration) {
@@ -86,17 +109,25 @@ void McmcControl::relocate(DeviceScene &S, unsigned Iteration) {
   if (Launch.failure() || Dead == 0)
     return;
   const cl::Buffer List = words("transparent Gaussians", Dead);
-  Launch.run(McmcProgram, "mcmc_list", itemsFor(S.Count), GroupSize, W.Dead,
-             Places, List, S.Count);
+  Launch.run(
+      itemsFor(S.Count), GroupSize,
+      kernels::mcmc::mcmc_list{
+          .dead = W.Dead, .places = Places, .list = List, .count = S.Count});
   const Draw D = draw(S, W, Dead, DrawsOfMoves, Iteration);
   share(S, D);
   const auto Move = [&](const cl::Buffer &Values, std::size_t Planes,
                         bool Moments) {
     if (Moments)
-      Launch.run(McmcProgram, "mcmc_forget", planesOf(S.Count, Planes),
-                 PlaneGroup, Values, D.Drawn, S.Count);
-    Launch.run(McmcProgram, "mcmc_move", planesOf(Dead, Planes), PlaneGroup,
-               Values, D.Sources, List, S.Count, Dead, Moments ? 1U : 0U);
+      Launch.run(planesOf(S.Count, Planes), PlaneGroup,
+                 kernels::mcmc::mcmc_forget{
+                     .moments = Values, .drawn = D.Drawn, .count = S.Count});
+    Launch.run(planesOf(Dead, Planes), PlaneGroup,
+               kernels::mcmc::mcmc_move{.values = Values,
+                                        .sources = D.Sources,
+                                        .list = List,
+                                        .count = S.Count,
+                                        .draws = Dead,
+                                        .moments = Moments ? 1U : 0U});
   };
   Move(S.Parameters.Geometry, GEOMETRY_PLANES, false);
   Move(S.Parameters.Sh, S.colourPlanes(), false);
@@ -122,8 +153,13 @@ void McmcControl::grow(DeviceScene &S, uint32_t After, unsigned Iteration) {
   New.ShDegree = S.ShDegree;
   const auto Grow = [&](const cl::Buffer &From, const cl::Buffer &To,
                         std::size_t Planes, bool Moments) {
-    Launch.run(McmcProgram, "mcmc_grow", planesOf(After, Planes), PlaneGroup,
-               From, To, D.Sources, S.Count, After, Moments ? 1U : 0U);
+    Launch.run(planesOf(After, Planes), PlaneGroup,
+               kernels::mcmc::mcmc_grow{.in = From,
+                                        .out = To,
+                                        .sources = D.Sources,
+                                        .count = S.Count,
+                                        .new_count = After,
+                                        .moments = Moments ? 1U : 0U});
   };
   New.Parameters = New.allocate(Launch, After);
   Grow(S.Parameters.Geometry, New.Parameters.Geometry, GEOMETRY_PLANES, false);
@@ -133,8 +169,13 @@ void McmcControl::grow(DeviceScene &S, uint32_t After, unsigned Iteration) {
                   [&](const cl::Buffer &From, const cl::Buffer &To,
                       uint32_t Planes) { Grow(From, To, Planes, true); });
   New.Identities = words("Gaussians' identities", After);
-  Launch.run(McmcProgram, "mcmc_grow", planesOf(After, 1), PlaneGroup,
-             S.Identities, New.Identities, D.Sources, S.Count, After, 0U);
+  Launch.run(planesOf(After, 1), PlaneGroup,
+             kernels::mcmc::mcmc_grow{.in = S.Identities,
+                                      .out = New.Identities,
+                                      .sources = D.Sources,
+                                      .count = S.Count,
+                                      .new_count = After,
+                                      .moments = 0U});
   identify(New.Identities, D, nullptr, S.Count, More, Iteration);
   S = New;
 }
@@ -152,9 +193,14 @@ DensityChange McmcControl::change(DeviceScene &S, unsigned Iteration) {
 }
 
 void McmcControl::addNoise(DeviceScene &S, unsigned Iteration, double Rate) {
-  Launch.run(McmcProgram, "mcmc_noise", itemsFor(S.Count), GroupSize,
-             S.Parameters.Geometry, S.Identities, S.Count, seedLow(),
-             seedHigh(), Iteration, static_cast<float>(Rate));
+  Launch.run(itemsFor(S.Count), GroupSize,
+             kernels::mcmc::mcmc_noise{.geometry = S.Parameters.Geometry,
+                                       .identities = S.Identities,
+                                       .count = S.Count,
+                                       .seed_low = seedLow(),
+                                       .seed_high = seedHigh(),
+                                       .iteration = Iteration,
+                                       .rate = static_cast<float>(Rate)});
 }
 
 } // namespace vorion::splat

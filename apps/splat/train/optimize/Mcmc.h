@@ -11,7 +11,6 @@
 
 namespace vorion::splat {
 
-inline constexpr const char *McmcProgram = "mcmc";
 ProgramSpec mcmcProgram();
 
 /// Needs the programs scan and sort to be built beside its own. Random numbers

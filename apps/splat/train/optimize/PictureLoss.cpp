@@ -1,8 +1,8 @@
 #include "train/optimize/PictureLoss.h"
 
+#include "kernels/loss.cl.h"
+#include "kernels/mask.cl.h"
 #include "render/Pipeline.h"
-
-#include <fmt/format.h>
 
 namespace vorion::splat {
 namespace {
@@ -17,13 +17,10 @@ constexpr uint32_t divideUp(uint32_t A, uint32_t B) { return (A + B - 1) / B; }
 } // namespace
 
 ProgramSpec lossProgram() {
-  return {
-      LossProgram,
-      "loss.cl",
-      {fmt::format("LANES={}", Lanes), fmt::format("TILE_ROWS={}", TileRows)}};
+  return kernels::loss::Program{.TILE_ROWS = TileRows};
 }
 
-ProgramSpec maskProgram() { return {MaskProgram, "mask.cl", {}}; }
+ProgramSpec maskProgram() { return kernels::mask::Program{}; }
 
 void PictureLoss::reserve(uint64_t Pixels, uint64_t Tiles) {
   if (Pixels > Room) {
@@ -72,21 +69,36 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Drawn, const Photo &Target,
       Masked = Launch.allocate("masked picture", 16 * uint64_t{Pixels});
     }
     Picture = Masked;
-    Launch.run(MaskProgram, "mask_picture", itemsFor(Pixels), GroupSize, Drawn,
-               Packed, Masked, Pixels);
+    Launch.run(itemsFor(Pixels), GroupSize,
+               kernels::mask::mask_picture{.picture = Drawn,
+                                           .photo = Packed,
+                                           .masked = Masked,
+                                           .pixels = Pixels});
   }
   const double Samples = 3.0 * Counted;
   const cl::NDRange Items(std::size_t{Across} * Lanes, Down, Channels);
   const cl::NDRange Group(Lanes, 1, 1);
-  Launch.run(LossProgram, "loss_slopes", Items, Group, Picture, Packed, Slopes,
-             Totals, Width, Height);
-  Launch.run(LossProgram, "loss_gradient", Items, Group, Picture, Packed,
-             Slopes, Gradient, Width, Height,
-             static_cast<float>((1 - DSsim) / Samples),
-             static_cast<float>(DSsim / Samples));
+  Launch.run(Items, Group,
+             kernels::loss::loss_slopes{.picture = Picture,
+                                        .photo = Packed,
+                                        .slopes = Slopes,
+                                        .totals = Totals,
+                                        .width = Width,
+                                        .height = Height});
+  Launch.run(Items, Group,
+             kernels::loss::loss_gradient{
+                 .picture = Picture,
+                 .photo = Packed,
+                 .slopes = Slopes,
+                 .gradient = Gradient,
+                 .width = Width,
+                 .height = Height,
+                 .per_absolute = static_cast<float>((1 - DSsim) / Samples),
+                 .per_ssim = static_cast<float>(DSsim / Samples)});
   if (!Counts.empty())
-    Launch.run(MaskProgram, "mask_gradient", itemsFor(Pixels), GroupSize,
-               Packed, Gradient, Pixels);
+    Launch.run(itemsFor(Pixels), GroupSize,
+               kernels::mask::mask_gradient{
+                   .photo = Packed, .gradient = Gradient, .pixels = Pixels});
 
   HostTotals.assign(std::size_t{2} * Channels * Across * Down, 0);
   Launch.read("loss", HostTotals.data(), Totals, 4 * HostTotals.size());

@@ -8,10 +8,8 @@
 
 namespace vorion::splat {
 
-inline constexpr const char *LossProgram = "loss";
 ProgramSpec lossProgram();
 /// For pictures of which some pixels do not count.
-inline constexpr const char *MaskProgram = "mask";
 ProgramSpec maskProgram();
 
 struct LossValues {

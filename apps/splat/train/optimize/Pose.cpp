@@ -1,6 +1,7 @@
 #include "train/optimize/Pose.h"
 
 #include "cameras/Vector.h"
+#include "kernels/pose.cl.h"
 #include "picture/Layout.h"
 #include "render/Pipeline.h"
 
@@ -75,7 +76,7 @@ Vector solved(const Matrix &M, const Vector &V) {
 
 } // namespace
 
-ProgramSpec poseProgram() { return {PoseProgram, "pose.cl", {}}; }
+ProgramSpec poseProgram() { return kernels::pose::Program{}; }
 
 Poses::Poses(Launcher &Launch, const TrainSettings &Rules,
              std::vector<Camera> Given, double CamerasExtent)
@@ -122,9 +123,15 @@ PoseSlope Poses::slope(std::size_t View, const PlanePair &Parameters,
     High.s[K] = static_cast<float>(C.Position[K]);
     Low.s[K] = static_cast<float>(C.Position[K] - double{High.s[K]});
   }
-  Launch.run(PoseProgram, "pose_back", Groups * Lanes, Lanes,
-             Parameters.Geometry, Back.Gradients.Geometry, Back.Seen.Depths,
-             Parts, Count, Stretch, High, Low);
+  Launch.run(Groups * Lanes, Lanes,
+             kernels::pose::pose_back{.geometry = Parameters.Geometry,
+                                      .gradients = Back.Gradients.Geometry,
+                                      .depths = Back.Seen.Depths,
+                                      .sums = Parts,
+                                      .count = Count,
+                                      .stretch = Stretch,
+                                      .high = High,
+                                      .low = Low});
   Launch.read("pose's gradients", Sums.data(), Parts, 4 * Sums.size());
   PoseSlope By{};
   for (std::size_t I = 0; I < Sums.size(); ++I)

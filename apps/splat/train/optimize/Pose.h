@@ -12,7 +12,6 @@
 
 namespace vorion::splat {
 
-inline constexpr const char *PoseProgram = "pose";
 ProgramSpec poseProgram();
 
 /// The loss's gradient by a camera's place (x, y, z of the world), and by

@@ -1,5 +1,6 @@
 #include "train/run/ViewBatch.h"
 
+#include "kernels/batch.cl.h"
 #include "picture/Layout.h"
 #include "render/Pipeline.h"
 
@@ -47,8 +48,12 @@ void ViewBatch::addGradients(const PlanePair &Of) {
   const auto Add = [&](const cl::Buffer &To, const cl::Buffer &From,
                        std::size_t Size) {
     const auto Count = static_cast<uint32_t>(Size);
-    Launch.run(BatchProgram, "batch_add", itemsFor(Count), GroupSize, To, From,
-               Count, First ? 1U : 0U, Scale);
+    Launch.run(itemsFor(Count), GroupSize,
+               kernels::batch::batch_add{.sums = To,
+                                         .gradients = From,
+                                         .count = Count,
+                                         .first = First ? 1U : 0U,
+                                         .scale = Scale});
   };
   Add(Sum.Geometry, Of.Geometry, GeometrySize);
   Add(Sum.Sh, Of.Sh, ShSize);
