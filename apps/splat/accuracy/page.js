@@ -28,7 +28,7 @@ function seenAxis() {
 }
 
 // `view`: 0 for all views together, else the number of one.
-const state = { view: 0, metric: 'psnr_db', axis: seenAxis(), floor: data.floor_db, selected: null, sort: null };
+const state = { view: 0, metric: 'psnr_db', axis: seenAxis(), floor: data.floor_db, selected: null, sort: { n: 1, down: true } };
 
 // The settings over a choice of views, from one of data.summaries: with the errors of the pictures that the axis times.
 function entriesOf(summary) {
@@ -88,36 +88,23 @@ function drawPlot(entries, front, best) {
   // What is much slower than the default would press all others together: it goes to the right edge.
   const base = entries.find(e => e.setting === 'default')?.times[time] ?? Infinity;
   const edge = MOST_OF_DEFAULT * base;
-  const points = shown.map(e => ({ x: Math.min(e.times[time], edge) * AXES[time].scale, y: height(e), entry: e, beyond: e.times[time] > edge }));
-  const colourOf = p => colour(kindOf(p.entry, front, best));
-  const lines = [{ label: 'front', data: front.map(e => ({ x: e.times[time] * AXES[time].scale, y: height(e) })), showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: colour('mark'), borderWidth: 1.5 }];
+  const points = shown.map(e => ({ x: Math.min(e.times[time], edge) * AXES[time].scale, y: height(e), name: e.setting, entry: e, beyond: e.times[time] > edge }));
+  const lines = [lineOf(front.map(e => ({ x: e.times[time] * AXES[time].scale, y: height(e) })), 'mark')];
   const [low, high] = [Math.min(...points.map(p => p.x)), Math.max(...points.map(p => p.x))];
   const room = 0.04 * (high - low || high);
-  if (metric === 'psnr_db')
-    lines.push({ label: 'floor', data: [{ x: low - room, y: state.floor }, { x: high + room, y: state.floor }], showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: colour('bad'), borderDash: [5, 4], borderWidth: 1.5 });
-  const rings = {
-    label: 'settings', data: points, pointBackgroundColor: 'transparent', pointBorderWidth: 2.5, pointHoverBorderWidth: 3.5, pointHoverBackgroundColor: 'transparent',
-    pointBorderColor: points.map(colourOf), pointHoverBorderColor: points.map(colourOf),
-  };
+  if (metric === 'psnr_db') lines.push(lineOf([{ x: low - room, y: state.floor }, { x: high + room, y: state.floor }], 'bad', { borderDash: [5, 4] }));
   const ticks = { callback: value => (tick ? (Number.isInteger(value) ? tick(value) : '') : value === equal ? 'equal' : value > most + 5 ? '' : value) };
-  const chart = drawChart('plot', {
-    type: 'scatter',
-    data: { datasets: [rings, ...lines] },
-    plugins: [dashBeyond],
-    options: {
-      scales: {
-        x: axis(`${AXES[time].label}, ${AXES[time].unit}`, { min: low - room, max: high + room, ticks: { includeBounds: false, maxRotation: 0, callback: tickText } }),
-        y: axis(`${label}, better is higher`, { grace: '6%', ticks }),
-      },
-      layout: { padding: { right: 14, top: 8 } },
-      plugins: { legend: { display: false }, tooltip: { enabled: false } },
-      onHover: (event, found) => showTip(entriesAt(found), event.native),
-      onClick: (event, found) => { const [first] = entriesAt(found); if (first) select(first.setting); },
+  const chart = drawPoints('plot', points, {
+    colours: points.map(p => colour(kindOf(p.entry, front, best))), dots: { pointBorderWidth: 2.5, pointHoverBorderWidth: 3.5 }, more: lines, plugins: [dashBeyond],
+    scales: {
+      x: axis(`${AXES[time].label}, ${AXES[time].unit}`, { min: low - room, max: high + room, ticks: { includeBounds: false, maxRotation: 0, callback: tickText } }),
+      y: axis(`${label}, better is higher`, { grace: '6%', ticks }),
     },
+    others: { layout: { padding: { right: 14, top: 8 } }, onHover: (event, found) => showTip(entriesAt(found), event.native) },
   });
   spread(chart, points);
-  rings.pointRadius = points.map(p => p.radius);
-  rings.pointHoverRadius = rings.pointRadius;
+  const [rings] = chart.data.datasets;
+  rings.pointRadius = rings.pointHoverRadius = points.map(p => p.radius);
   chart.update();
 }
 
@@ -169,11 +156,7 @@ function drawTable(entries, front, base) {
     columns.push([`${AXES[axis].label}; against the default`, e => e.times[axis] ?? Infinity,
       e => `${time(e.times[axis], axis)} ${base ? changeOf(e.times[axis], base.times[axis]) : ''}`]);
   columns.push(['lane area', e => e.area, e => `${(100 * e.area).toFixed(1)} %`]);
-  drawColumns(byId('table'), columns, entries, state.sort ?? { n: 1, down: true }, sort => { state.sort = sort; draw(); }, (row, e) => {
-    if (front.includes(e)) row.classList.add('onfront');
-    if (e.setting === state.selected) row.classList.add('selected');
-    row.addEventListener('click', () => select(e.setting));
-  });
+  drawEntries(columns, entries, e => e.setting, e => front.includes(e));
 }
 
 // Why the recommended setting is not on the front that is shown; nothing if it is.
@@ -225,11 +208,6 @@ function drawDetails(entries, base) {
     if (e.times[axis] !== null)
       list.append(`; ${AXES[axis].label} ${time(e.times[axis], axis)} ${base ? changeOf(e.times[axis], base.times[axis]) : ''}`);
   byId('details').replaceChildren(list, ...pointsOf(e.setting).map(pictures));
-}
-
-function select(setting) {
-  state.selected = setting;
-  draw();
 }
 
 function draw() {
@@ -287,15 +265,11 @@ function checkRecommended() {
 function tryOut() {
   if (!/ MHz, clock version \d+\.$/.test(byId('machine').textContent)) throw new Error('the times have no machine');
   checkRecommended();
-  const { data: points } = charts.plot.data.datasets[0];
-  if (points.length < 2) throw new Error('fewer than two settings');
-  const index = points.length - 1, { setting } = points[index].entry, found = [{ datasetIndex: 0, index }];
+  const index = charts.plot.data.datasets[0].data.length - 1, found = [{ datasetIndex: 0, index }];
   charts.plot.options.onHover({ native: { clientX: 10, clientY: 10 } }, found);
   if (byId('tip').style.display !== 'block' || !byId('tip').querySelector('img')) throw new Error('no picture on hover');
   charts.plot.options.onHover({}, []);
-  charts.plot.options.onClick({}, found);
-  if (!byId('details').textContent.startsWith(setting)) throw new Error('a click selects nothing');
-  if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
+  const points = trySelecting(index, 'details');
   const covered = charts.plot.getDatasetMeta(0).data.filter((p, n, all) =>
     all.some((q, m) => m < n && Math.hypot(p.x - q.x, p.y - q.y) < 1 && p.options.radius === q.options.radius));
   if (covered.length) throw new Error(`${covered.length} settings are hidden`);

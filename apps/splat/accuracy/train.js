@@ -49,26 +49,18 @@ function drawPlot() {
   const { label, logarithmic } = AXES[state.axis];
   const points = data.settings.map(s => {
     const at = placed(s, state.axis), db = s.psnr8_db;
-    return { x: at.mean, y: db.mean, at, db, setting: s };
+    return { x: at.mean, y: db.mean, name: s.setting, at, db, setting: s };
   });
   const colours = points.map(({ setting: { setting } }) => colour(setting === state.selected ? 'chosen' : setting === 'default' ? 'ink' : 'mark'));
   const ends = axis => points.flatMap(p => [p[axis].least, p[axis].most]);
-  drawChart('plot', {
-    type: 'scatter',
-    data: { datasets: [{ data: points, pointRadius: 6, pointHoverRadius: 8, pointBackgroundColor: colours.map(c => c + '90'), pointBorderColor: colours, pointBorderWidth: 2,
-      pointStyle: points.map(p => (p.setting.setting === 'default' ? 'rect' : 'circle')) }] },
-    plugins: [spreads],
-    options: {
-      scales: {
-        x: axis(label, { grace: '5%', suggestedMin: Math.min(...ends('at')), suggestedMax: Math.max(...ends('at')), ticks: logarithmic ? { callback: t => `1e${t.toFixed(1)}` } : {} }),
-        y: axis(`PSNR of held-out views after ${data.iterations} iterations, dB`, { grace: '5%', suggestedMin: Math.min(...ends('db')), suggestedMax: Math.max(...ends('db')) }),
-      },
-      plugins: {
-        legend: { display: false },
-        tooltip: { callbacks: { label: ({ raw }) => `${raw.setting.setting}: ${raw.db.mean.toFixed(2)} dB, ${label} ${text(raw.setting, state.axis)}` } },
-      },
-      onClick: (event, found) => { if (found.length) select(points[found[0].index].setting.setting); },
+  drawPoints('plot', points, {
+    colours, plugins: [spreads],
+    dots: { pointRadius: 6, pointHoverRadius: 8, pointBackgroundColor: colours.map(c => c + '90'), pointHoverBackgroundColor: undefined, pointStyle: points.map(p => (p.name === 'default' ? 'rect' : 'circle')) },
+    scales: {
+      x: axis(label, { grace: '5%', suggestedMin: Math.min(...ends('at')), suggestedMax: Math.max(...ends('at')), ticks: logarithmic ? { callback: t => `1e${t.toFixed(1)}` } : {} }),
+      y: axis(`PSNR of held-out views after ${data.iterations} iterations, dB`, { grace: '5%', suggestedMin: Math.min(...ends('db')), suggestedMax: Math.max(...ends('db')) }),
     },
+    label: p => `${p.name}: ${p.db.mean.toFixed(2)} dB, ${label} ${text(p.setting, state.axis)}`,
   });
 }
 
@@ -78,10 +70,7 @@ function drawTable() {
     columns.push([AXES[axis].label, s => AXES[axis].of(s).mean, s => text(s, axis)]);
   for (const [label, key] of [['PSNR, mean', 'mean'], ['least', 'least'], ['greatest', 'most']])
     columns.push([label, s => s.psnr8_db[key], s => s.psnr8_db[key].toFixed(3)]);
-  drawColumns(byId('table'), columns, data.settings, state.sort, sort => { state.sort = sort; draw(); }, (row, s) => {
-    if (s.setting === state.selected) row.classList.add('selected');
-    row.addEventListener('click', () => select(s.setting));
-  });
+  drawEntries(columns, data.settings, s => s.setting);
 }
 
 function drawCurves() {
@@ -103,11 +92,6 @@ function draw() {
   drawCurves();
 }
 
-function select(setting) {
-  state.selected = setting;
-  draw();
-}
-
 function start() {
   byId('machine').textContent = `All times are of ${data.clocked_machine}.`;
   fill(byId('axis'), Object.entries(AXES).map(([k, a]) => [k, a.label]), value => { state.axis = value; draw(); });
@@ -118,9 +102,7 @@ function tryOut() {
   if (!/ MHz, clock version \d+\.$/.test(byId('machine').textContent)) throw new Error('the times have no machine');
   const { length } = charts.plot.data.datasets[0].data;
   if (length !== data.settings.length) throw new Error('not a point a setting');
-  charts.plot.options.onClick({}, [{ datasetIndex: 0, index: length - 1 }]);
-  if (!byId('selected').textContent.startsWith(data.settings[length - 1].setting)) throw new Error('a click selects nothing');
-  if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
+  trySelecting(length - 1, 'selected');
   if (charts.curves.data.datasets.length < 2) throw new Error('fewer than two curves');
   tryControls(['axis']);
   document.querySelectorAll('#table th').forEach(cell => cell.dispatchEvent(new MouseEvent('click')));

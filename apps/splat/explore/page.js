@@ -55,20 +55,10 @@ function drawPlot() {
   const order = ['soft', 'mark', 'ink', 'chosen'];
   const shown = data.machines.filter(m => isJudged(m, state.size)).sort((a, b) => order.indexOf(kindOf(a)) - order.indexOf(kindOf(b)));
   const figures = shown.map(m => m[state.size]);
-  const colours = shown.map(m => colour(kindOf(m)));
-  const rings = {
-    data: shown.map(m => ({ x: value(m[state.size], state.across), y: value(m[state.size], state.up), machine: m })),
-    pointRadius: shown.map(m => (kindOf(m) === 'soft' ? 3 : 5)), pointBorderWidth: 2, pointBackgroundColor: 'transparent', pointBorderColor: colours,
-    pointHoverBorderColor: colours, pointHoverBackgroundColor: 'transparent',
-  };
-  drawChart('plot', {
-    type: 'scatter',
-    data: { datasets: [rings] },
-    options: {
-      scales: { x: axisAround(state.across, figures), y: axisAround(state.up, figures) },
-      plugins: { legend: { display: false }, tooltip: { callbacks: { label: item => item.raw.machine.machine.split(',') } } },
-      onClick: (event, found) => { if (found.length) select(rings.data[found[0].index].machine.machine); },
-    },
+  const points = shown.map(m => ({ x: value(m[state.size], state.across), y: value(m[state.size], state.up), name: m.machine }));
+  drawPoints('plot', points, {
+    colours: shown.map(m => colour(kindOf(m))), dots: { pointRadius: shown.map(m => (kindOf(m) === 'soft' ? 3 : 5)) },
+    scales: { x: axisAround(state.across, figures), y: axisAround(state.up, figures) }, label: p => p.name.split(','),
   });
 }
 
@@ -126,7 +116,7 @@ function drawRoof() {
   const dots = (places, which, filled) => ({
     data: places, pointRadius: filled ? 5 : 7, pointBorderWidth: 2, pointBorderColor: colour(which), pointBackgroundColor: filled ? colour(which) : 'transparent',
   });
-  const roof = { data: [{ x: left, y: left }, { x: 1, y: 1 }, { x: right, y: 1 }], showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: colour('mark'), borderWidth: 1.5 };
+  const roof = lineOf([{ x: left, y: left }, { x: 1, y: 1 }, { x: right, y: 1 }], 'mark');
   drawChart('roof', {
     type: 'scatter',
     data: { datasets: [dots(ofChosen, 'chosen', true), dots(ofBase, 'ink', false), roof] },
@@ -193,11 +183,7 @@ function drawTable() {
   for (const key of Object.keys(AXES)) columns.push([AXES[key].label, m => value(m.whole, key), m => format(m.whole, key)]);
   const most = m => m.views[0].stages.reduce((a, b) => (b.cycles > a.cycles ? b : a));
   if (!parts.length) columns.push(['longest stage', m => most(m).name, m => `${most(m).name}, ${most(m).unit}: ${most(m).reason}`]);
-  drawColumns(byId('table'), columns, entries, state.sort, sort => { state.sort = sort; drawTable(); }, (row, m) => {
-    if (m.on_front) row.classList.add('onfront');
-    if (m.machine === state.selected) row.classList.add('selected');
-    row.addEventListener('click', () => select(m.machine));
-  });
+  drawEntries(columns, entries, m => m.machine, m => m.on_front);
 }
 
 function drawSummary() {
@@ -218,11 +204,6 @@ function sayHowJoined() {
   byId('joined').textContent = `${several ? 'Frames and iterations are not joined: each has its own rate and energy. ' : ''}` +
     `The rate is the sum of the weights over the sum of the weighted times of all ${work.map(w => `${w.unit}s`).join(', or of all ')}; the energy is their weighted mean. ` +
     'A share is of these weighted times or energies.';
-}
-
-function select(machine) {
-  state.selected = machine;
-  draw();
 }
 
 function draw() {
@@ -250,11 +231,7 @@ function start() {
 }
 
 function tryOut() {
-  const points = charts.plot.data.datasets[0].data;
-  if (points.length < 2) throw new Error('fewer than two machines');
-  charts.plot.options.onClick({}, [{ index: 0 }]);
-  if (!byId('details').textContent.startsWith(points[0].machine.machine)) throw new Error('a click selects nothing');
-  if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
+  const points = trySelecting(0, 'details');
   if (!charts.roof.data.datasets[1].data.length) throw new Error('no stage under the roof');
   if (charts.roof.data.datasets[1].data.some(p => p.y > 1 || p.stage.memory_share > 1)) throw new Error('a stage is above the roof');
   if (!/^The base is .* MHz, clock version \d+\. /.test(byId('summary').textContent)) throw new Error('the base has no clock');

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
@@ -50,12 +49,8 @@ std::string filledPage(std::string_view Template,
   return Page;
 }
 
-std::string dataUri(std::string_view Type, const std::string &Bytes) {
-  return fmt::format("data:{};base64,{}", Type, base64(Bytes));
-}
-
 std::string pngUri(const std::string &Bytes) {
-  return dataUri("image/png", Bytes);
+  return "data:image/png;base64," + base64(Bytes);
 }
 
 } // namespace vorion::splat

@@ -15,9 +15,7 @@ std::string_view chartLibrary();
 std::string filledPage(std::string_view Template,
                        const nlohmann::ordered_json &Data);
 
-/// A file's \p Bytes, of the MIME type \p Type, as a page names them.
-std::string dataUri(std::string_view Type, const std::string &Bytes);
-/// The same of a PNG.
+/// The \p Bytes of a PNG, as a page names them.
 std::string pngUri(const std::string &Bytes);
 
 } // namespace vorion::splat

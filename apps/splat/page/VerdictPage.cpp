@@ -30,10 +30,19 @@ std::string toString(const AnswerTable &T) {
   return Text;
 }
 
+/// What verdict.js draws.
+static Json chartJson(const Chart &C) {
+  Json Series = Json::array();
+  for (const ChartSeries &S : C.Series)
+    Series.push_back({{"name", S.Name}, {"values", S.Values}});
+  return {{"title", C.Title},   {"x_label", C.XLabel}, {"y_label", C.YLabel},
+          {"places", C.Places}, {"bars", C.Bars},      {"series", Series}};
+}
+
 std::string verdictPageOf(const VerdictPage &P) {
   Json Charts = Json::array(), Pictures = Json::array(), Tables = Json::array();
   for (const Chart &C : P.Charts)
-    Charts.push_back(dataUri("image/svg+xml", svgOf(C)));
+    Charts.push_back(chartJson(C));
   for (const PagePictures &Group : P.Pictures) {
     Json Images = Json::array();
     for (const PagePicture &One : Group.Pictures)

@@ -38,7 +38,7 @@ std::string toString(const AnswerTable &T);
 
 struct VerdictPage {
   std::string Heading, Verdict;
-  std::vector<Chart> Charts;
+  std::vector<Chart> Charts; ///< of places
   std::vector<PagePictures> Pictures;
   std::vector<AnswerTable> Tables;
   std::vector<std::string> Made; ///< lines for the foot

@@ -9,18 +9,29 @@ function tableOf({ columns, rows }) {
     element('tbody', {}, ...rows.map(row => rowOf(row)))));
 }
 
-const redraw = () => {};
+function redraw() {
+  data.charts.forEach(({ title, x_label: x, y_label: y, places, bars, series }, n) => drawChart(`chart-${n}`, {
+    type: bars ? 'bar' : 'line',
+    data: { labels: places, datasets: series.map(({ name, values }, k) => ({ label: name, data: values, backgroundColor: seriesColour(k), borderColor: seriesColour(k) })) },
+    options: {
+      scales: { x: axis(x), y: axis(y, { beginAtZero: true }) },
+      plugins: { title: { display: true, text: title, color: colour('ink') }, legend: { position: 'bottom' } },
+    },
+  }));
+}
 
 openPage(() => {
   document.title = data.heading;
   document.querySelector('h1').textContent = data.heading;
   byId('verdict').textContent = data.verdict;
-  byId('charts').append(...data.charts.map(image => element('img', { src: image, alt: '', style: 'width: 100%; max-width: 60em' })));
+  byId('charts').append(...data.charts.map(({ title }, n) => element('div', { class: 'chart', style: 'height: 24em; max-width: 60em' },
+    element('canvas', { id: `chart-${n}`, role: 'img', 'aria-label': `${title}; a table below has the numbers` }))));
   for (const { title, note, images } of data.pictures)
     byId('pictures').append(element('h2', {}, title), element('p', { class: 'note' }, note),
       element('div', { class: 'tiles' }, ...images.map(figureOf)));
   for (const table of data.tables)
     byId('tables').append(element('h2', {}, table.title), tableOf(table), element('p', { class: 'note' }, table.note));
+  redraw();
 }, redraw, () => {
   const images = document.images.length, rows = document.querySelectorAll('tbody tr').length;
   if (images + rows === 0) throw new Error('nothing is shown');
