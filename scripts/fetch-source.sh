@@ -202,7 +202,8 @@ fi
 
 ours= # in the order of the series; scripts/patches.py makes it
 [ -z "$patches" ] || ours=$(sed "s,^,$patches/," "$patches/series")
-state=$( { echo "$origin"; [ -z "$ours" ] || cat $ours; } | sha256sum | cut -d' ' -f1)
+# A patch's header changes nothing.
+state=$( { echo "$origin"; for patch in $ours; do sed '1,/^---$/d' "$patch"; done; } | sha256sum | cut -d' ' -f1)
 if [ "$(cat "$sources/$name.stamp" 2>/dev/null)" = "$state" ] && [ -d "$sources/$name" ]; then
   exit 0
 fi

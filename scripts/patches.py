@@ -135,7 +135,10 @@ class Patch:
         for test in self.fields["Test"]:
             file, _, name = test.partition(" ")
             path = os.path.join(ROOT, file)
-            if file not in ("cts", "pocl") and not (os.path.isfile(path) and name in read(path)):
+            if file == "pocl" and name.startswith("corrections/"):
+                if f"tests/{name}.c" not in self.files():
+                    yield f"its test {test} is not among its files"
+            elif file not in ("cts", "pocl") and not (os.path.isfile(path) and name in read(path)):
                 yield f"its test {test} does not exist"
         if self.fields["Needs"] and not self.name.startswith("upstream/"):
             yield "its header has 'Needs:', which is for patches of upstream/"
@@ -182,7 +185,7 @@ class Series:
 
 
 class Tree:
-    """A source as git commits: `pristine`, and one for each patch behind it."""
+    """A source as git commits: `pristine`, and one for each patch after it."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -260,7 +263,7 @@ class Tree:
             os.path.isdir(os.path.join(self.folder, ".git", name)) for name in ("rebase-merge", "rebase-apply"))
 
     def patches(self):
-        """The commits behind `pristine` as patches."""
+        """The commits after `pristine` as patches."""
         if not self.is_clean():
             raise Failure(5, f"{self.folder}: has changes that are not committed, or a rebase that has not ended")
         found = []
@@ -423,7 +426,7 @@ def tables():
                     f"| {', '.join(f'`{test}`' for test in patch.fields['Test'])} | {'; '.join(patch.fields['Upstream'])} |"
                 if kind == "upstream":
                     needs = [f"`{os.path.basename(name)}`" for name in patch.fields["Needs"]]
-                    row += f" {'behind ' + ', '.join(needs) if needs else 'alone'} |"
+                    row += f" {'after ' + ', '.join(needs) if needs else 'alone'} |"
                 rows.append(row)
             rows.append(f"| {len(rows) - 2} patches | {total:,} | | | |" + (" |" if kind == "upstream" else ""))
             made[f"{package} {kind}"] = "\n".join(rows)
