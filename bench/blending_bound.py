@@ -37,7 +37,7 @@ def draw(args, scene, view, folder, variables):
     options = ("--time", "--size", "960x544", "--exp", "table")
     if args.deal != "lists":
         camera = next(one for one in timed_frame.cameras_of(os.path.join(scenes.ROOT, scene.cameras)) if one["img_name"] == view)
-        return timed_frame.pair(scene.path, [camera, camera], folder, *options, "--deal", args.deal, **variables)[1]
+        return timed_frame.pair(scene, [camera, camera], folder, *options, "--deal", args.deal, **variables)[1]
     found, = study.reports([study.render("frame", scene, view, *options, **variables)])
     return found
 

@@ -17,6 +17,8 @@ import tempfile
 
 import clocked
 import command_line
+import scenes
+import study
 
 # Ordinary lenses: a wide camera's distortion as calibrations find it, and all that the model has.
 DISTORTED = {"camera_model": "OPENCV", "k1": -0.12, "k2": 0.03, "p1": 0.0008, "p2": -0.0005}
@@ -37,14 +39,15 @@ def models(view, centre):
             ("pinhole, rolling shutter", ROLLING, []), ("fisheye, rolling shutter", {**FISHEYE, **ROLLING}, []))
 
 
-def measure(args, record, options, folder):
-    cameras, report = os.path.join(folder, "c.json"), os.path.join(folder, "r.json")
+def point(args, number, record, options, folder):
+    cameras = os.path.join(folder, f"{number}.json")
     with open(cameras, "w", encoding="utf-8") as f:
         json.dump([record], f)
-    subprocess.run(["splat", "render", args.scene, "--cameras", cameras, "--time", "-o", os.path.join(folder, "p.pfm"),
-                    "--json", report, *options, *args.options], check=True, stdout=subprocess.DEVNULL)
-    with open(report, encoding="utf-8") as f:
-        report = json.load(f)
+    of = scenes.with_views(args.scene, cameras, (args.view,))
+    return study.render(str(number), of, args.view, "--time", *options, *args.options)
+
+
+def figures(report):
     project = next(stage for stage in report["time"]["stages"] if stage["name"] == "project")
     return {"project": project["time"]["cycles"], "frame": report["time"]["sum"]["cycles"],
             "seen": report["counts"]["visible"], "pairs": report["counts"]["pairs"], "clock": report["time"]["sum"]}
@@ -70,17 +73,16 @@ def main():
                                      text=True).stdout)
     inner = info["inner_bounds"]
     centre = [(low + high) / 2 for low, high in zip(inner["min"], inner["max"])]
-    first = None
+    tried = models(view, centre)
     with tempfile.TemporaryDirectory() as folder:
-        for name, lens, options in models(view, centre):
-            found = measure(args, {**view, **lens}, options, folder)
-            if not first:
-                first, clock = found, found["clock"]
-                print(f"{args.view} of {os.path.basename(args.scene)}, {info['gaussians']:,} Gaussians, "
-                      f"{view['width']}x{view['height']}, on {clocked.name(clock)}\n")
-                print("| camera | seen | pairs | cycles of `project` | more | of the frame | more |\n"
-                      "|---|--:|--:|--:|--:|--:|--:|")
-            print(row(name, found, first), flush=True)
+        reports = study.reports([point(args, number, {**view, **lens}, options, folder) for number, (_, lens, options) in enumerate(tried)])
+    found = [figures(report) for report in reports]
+    print(f"{args.view} of {os.path.basename(args.scene)}, {info['gaussians']:,} Gaussians, "
+          f"{view['width']}x{view['height']}, on {clocked.name(found[0]['clock'])}\n")
+    print("| camera | seen | pairs | cycles of `project` | more | of the frame | more |\n"
+          "|---|--:|--:|--:|--:|--:|--:|")
+    for (name, _, _), one in zip(tried, found, strict=True):
+        print(row(name, one, found[0]))
 
 
 if __name__ == "__main__":

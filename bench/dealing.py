@@ -40,7 +40,7 @@ def figures(found):
 
 def draw(scene, machine, cameras, deal, folder):
     """The figures of both pictures."""
-    found = timed_frame.pair(scene.path, cameras, folder, "--size", "960x544", "--exp", "table", "--energy", "--deal", deal,
+    found = timed_frame.pair(scene, cameras, folder, "--size", "960x544", "--exp", "table", "--energy", "--deal", deal,
                              VORION_CONFIG=machine)
     return [figures(one) for one in found]
 

@@ -1,11 +1,12 @@
 """A view of the command line and a machine, and two pictures by one process: what the programs share that draw with the clock."""
 
+import dataclasses
 import json
 import os
 import subprocess
-import sys
 
 import scenes
+import study
 
 
 def add_view(parser):
@@ -32,14 +33,10 @@ def cameras_of(file):
         return json.load(f)
 
 
-def pair(scene, cameras, folder, *options, **variables):
-    """What `splat render --json` says of each of two pictures that it draws one after the other; ends the program if it fails."""
-    file, path = os.path.join(folder, "pair.json"), os.path.join(folder, "report.json")
+def pair(of, cameras, folder, *options, **variables):
+    """What `splat render --json` says of each of two pictures of a scene that it draws one after the other."""
+    file = os.path.join(folder, "pair.json")
     with open(file, "w", encoding="utf-8") as f:
         json.dump([dict(camera, id=number, img_name=str(number)) for number, camera in enumerate(cameras)], f)
-    done = subprocess.run(["splat", "render", scene, "--cameras", file, "--view", "all", "-o", os.path.join(folder, "picture.pfm"), "--json", path,
-                           *options], env=dict(os.environ, **variables), capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit("error: " + done.stderr.strip().splitlines()[-1])
-    with open(path, encoding="utf-8") as f:
-        return json.load(f)["pictures"]
+    both, = study.reports([study.render("pair", dataclasses.replace(of, cameras=file), "all", *options, **variables)])
+    return both["pictures"]
