@@ -146,7 +146,7 @@ private:
         C.Optics.byDistance() ? glm::length(From) : glm::dot(R.Ahead, From);
     if (!inFront(Depth, O))
       return;
-    const double Far = C.Optics.Model == LensModel::Orthographic ? 1 : Depth;
+    const double Far = C.Optics.Model->IsParallel ? 1 : Depth;
     const double Along = glm::dot(R.Direction, From);
     const double Across = glm::dot(From, From) - Along * Along;
     if (!(Across <= B.Deviation * (B.Widest + Blur * Far * Far)))

@@ -137,7 +137,7 @@ private:
       }
     if (View.Shutter)
       return throughShutter(I, V, W, P, Q, A);
-    if (View.Optics.Model != LensModel::Pinhole)
+    if (!View.Optics.isPinhole())
       return throughLens(I, V, P, Q, A);
     const Jacobian<double> J = jacobian(P, View, Settings.Rule);
     const Footprint<double> F = footprint(A, J);

@@ -139,14 +139,14 @@ TEST(Backward, GsplatDifferentiatesTheLimitOfTheJacobian) {
 // Through each lens; of an equirectangular one across the seam too.
 TEST(Backward, IsTheDerivativeThroughLenses) {
   struct {
-    LensModel Model;
+    const LensModel *Model;
     LensCoefficients K;
-  } const Lenses[] = {{LensModel::OpenCv,
+  } const Lenses[] = {{&lenses::OpenCv,
                        {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
                         -0.01, 0.03, 0, 0.01}},
-                      {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
-                      {LensModel::Orthographic, {}},
-                      {LensModel::Equirectangular, {}}};
+                      {&lenses::Fisheye, {0.1, -0.02, 0.01, 0.002}},
+                      {&lenses::Orthographic, {}},
+                      {&lenses::Equirectangular, {}}};
   for (const auto &[Model, K] : Lenses)
     for (const Rules Rule : {Rules::Inria, Rules::Gsplat})
       for (const double Offset : {0., 0.7}) {
@@ -154,7 +154,7 @@ TEST(Backward, IsTheDerivativeThroughLenses) {
         O.Rule = Rule;
         O.Antialiased = Offset == 0;
         auto C = obliqueCamera();
-        if (Model == LensModel::Equirectangular) {
+        if (Model == &lenses::Equirectangular) {
           C.Focal = {Width / (2 * M_PI), Height / M_PI};
           C.Principal = {0.5 * Width, 0.5 * Height};
           if (Offset != 0) { // it looks back
@@ -165,30 +165,30 @@ TEST(Backward, IsTheDerivativeThroughLenses) {
             C.Centre = {};
           }
         }
-        setLens(C, Model, K);
+        setLens(C, *Model, K);
         expectDifferences(smallScene(9, Offset), C, O);
       }
 }
 
 struct {
-  LensModel Model;
+  const LensModel *Model;
   LensCoefficients K;
-} const Lenses[] = {{LensModel::Pinhole, {}},
-                    {LensModel::OpenCv,
+} const Lenses[] = {{&lenses::Pinhole, {}},
+                    {&lenses::OpenCv,
                      {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
                       -0.01, 0.03, 0, 0.01}},
-                    {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
-                    {LensModel::Orthographic, {}},
-                    {LensModel::Equirectangular, {}}};
+                    {&lenses::Fisheye, {0.1, -0.02, 0.01, 0.002}},
+                    {&lenses::Orthographic, {}},
+                    {&lenses::Equirectangular, {}}};
 
-Camera<double> obliqueCameraThrough(LensModel Model,
+Camera<double> obliqueCameraThrough(const LensModel *Model,
                                     const LensCoefficients &K) {
   auto C = obliqueCamera();
-  if (Model == LensModel::Equirectangular) {
+  if (Model == &lenses::Equirectangular) {
     C.Focal = {Width / (2 * M_PI), Height / M_PI};
     C.Principal = {0.5 * Width, 0.5 * Height};
   }
-  setLens(C, Model, K);
+  setLens(C, *Model, K);
   return C;
 }
 
@@ -204,7 +204,7 @@ TEST(Backward, IsTheDerivativeThroughShutters) {
   for (const auto &[Model, K] : Lenses)
     for (const Rules Rule : {Rules::Inria, Rules::Gsplat})
       for (const double Offset : {0., 0.9}) {
-        if (Offset > 0 && Model == LensModel::Pinhole && Rule == Rules::Inria)
+        if (Offset > 0 && Model == &lenses::Pinhole && Rule == Rules::Inria)
           continue;
         Options O;
         O.Rule = Rule;

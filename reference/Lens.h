@@ -10,11 +10,11 @@
 
 namespace vorion::reference {
 
-/// Gives \p C the model with its coefficients in OpenCV's order (see \c Lens)
-/// and computes its limits. Size, focal lengths and principal point must be
+/// Gives \p C the model with its coefficients and computes its limits. Size, focal lengths and principal point must be
 /// there.
 template <typename Real>
-void setLens(Camera<Real> &C, LensModel Model, const LensCoefficients &K);
+void setLens(Camera<Real> &C, const LensModel &Model,
+             const LensCoefficients &K);
 
 /// The place of \p P in units of the focal lengths, from the principal point;
 /// false if the model does not say one: behind a camera that looks forward, or
@@ -28,15 +28,15 @@ template <typename Real>
 glm::vec<2, Real> placeDifference(const Lens &L, const glm::vec<2, Real> &A,
                                   const glm::vec<2, Real> &B) {
   glm::vec<2, Real> D = A - B;
-  if (L.Model == LensModel::Equirectangular)
+  if (L.Model->CoversSphere)
     D.x -= static_cast<Real>(2 * M_PI) *
            std::round(D.x / static_cast<Real>(2 * M_PI));
   return D;
 }
 
 /// Rows of the Jacobian of that in pixels. It is taken at \p P, or where the
-/// model holds it: OpenCV's at slopes within the limits of \p Rule, an
-/// equirectangular one no nearer to a pole than the middle of the last row.
+/// model holds it: at slopes within the limits of \p Rule, or where its own
+/// file says.
 template <typename Real> struct LensRows {
   glm::vec<3, Real> X, Y;
 };

@@ -97,7 +97,7 @@ Reordered blendInOrder(const std::vector<Splat<double>> &Splats, int Width,
 }
 
 PixelDepth depthAlongRay(const Gaussians<double> &G, const Camera<double> &C) {
-  assert(C.Optics.Model == LensModel::Pinhole && "a ray for each pixel");
+  assert(C.Optics.isPinhole() && "a ray for each pixel");
   auto All = std::make_shared<std::vector<Whitening>>();
   All->reserve(G.size());
   for (std::size_t I = 0; I < G.size(); ++I)

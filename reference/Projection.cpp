@@ -131,7 +131,7 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   if constexpr (std::is_same_v<Real, double>)
     P = multiply(C.Rotation, G.Means[I]) + C.Translation;
   const Lens &L = C.Optics;
-  const bool Straight = L.Model == LensModel::Pinhole && !C.Shutter;
+  const bool Straight = L.isPinhole() && !C.Shutter;
   const ExactDepth Exact =
       L.byDistance() ? exactDistance(C, G.Means[I]) : exactDepth(C, G.Means[I]);
   S.Depth = static_cast<Real>(Exact.Z);
@@ -228,7 +228,7 @@ std::vector<Splat<Real>> project(const Gaussians<Real> &G,
   Splats.reserve(G.size());
   for (std::size_t I = 0; I < G.size(); ++I)
     Splats.push_back(project(G, I, C, O));
-  if (C.Optics.Model == LensModel::Equirectangular)
+  if (C.Optics.Model->CoversSphere)
     for (const Real Turn : {Real(C.Width), -Real(C.Width)})
       for (std::size_t I = 0; I < G.size(); ++I) {
         Splats.push_back(Splats[I]);

@@ -11,9 +11,7 @@ namespace {
 /// The place through the radial part of \p L at \p Angle from the axis.
 double radialPlace(const Lens &L, double Angle) {
   Lens Radial = L;
-  if (L.Model == LensModel::OpenCv)
-    for (const std::size_t Other : {2U, 3U, 8U, 9U, 10U, 11U})
-      Radial.K[Other] = 0;
+  Radial.K = L.Model->RadialPart(L.K);
   glm::dvec2 At;
   const glm::dvec3 P(std::sin(Angle), 0, std::cos(Angle));
   return placeThrough(Radial, P, At) ? At.x : INFINITY;
@@ -25,8 +23,7 @@ glm::dvec3 radialDirection(const Lens &L, const glm::dvec2 &At) {
   const double Length = glm::length(At);
   if (Length == 0)
     return {0, 0, 1};
-  double Low = 0,
-         High = L.Model == LensModel::Fisheye ? L.Limit : std::atan(L.Limit);
+  double Low = 0, High = L.byDistance() ? L.Limit : std::atan(L.Limit);
   for (int I = 0; I < 100; ++I) {
     const double Middle = (Low + High) / 2;
     (radialPlace(L, Middle) < Length ? Low : High) = Middle;
@@ -53,20 +50,11 @@ void refine(const Camera<double> &C, const glm::dvec2 &At, glm::dvec3 &D) {
 /// The direction that the lens shows at \p At, in units of the focal lengths.
 std::optional<glm::dvec3> directionAt(const Camera<double> &C,
                                       const glm::dvec2 &At) {
-  switch (C.Optics.Model) {
-  case LensModel::Pinhole:
-    return glm::dvec3(At, 1);
-  case LensModel::Orthographic:
-    return glm::dvec3(0, 0, 1);
-  case LensModel::Equirectangular:
-    return glm::dvec3(std::sin(At.x) * std::cos(At.y), std::sin(At.y),
-                      std::cos(At.x) * std::cos(At.y));
-  case LensModel::OpenCv:
-  case LensModel::Fisheye:
-    break;
-  }
+  const LensModel &Model = *C.Optics.Model;
+  if (Model.Ray)
+    return Model.Ray(C.Optics.K, At);
   glm::dvec3 D = radialDirection(C.Optics, At);
-  if (C.Optics.Model == LensModel::OpenCv)
+  if (Model.RadialPart != allRadial)
     refine(C, At, D);
   glm::dvec2 Place;
   if (!placeThrough(C.Optics, D, Place) ||
@@ -86,8 +74,7 @@ std::optional<PixelRay> rayAt(const Camera<double> &C, const glm::dvec2 &At) {
       *Own / (C.Optics.byDistance() ? glm::length(*Own) : Own->z);
   PixelRay R;
   R.Eye = glm::dvec3(0);
-  R.Origin = C.Optics.Model == LensModel::Orthographic ? glm::dvec3(Place, 0)
-                                                       : glm::dvec3(0);
+  R.Origin = C.Optics.Model->IsParallel ? glm::dvec3(Place, 0) : glm::dvec3(0);
   R.Direction = glm::normalize(D);
   R.Ahead = {0, 0, 1};
   R.Rows = freeRowsThrough(C, D);

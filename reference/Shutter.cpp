@@ -25,7 +25,7 @@ Camera<double> inDouble(const Camera<double> &C) { return C; }
 
 LensRows<double> heldRows(const Camera<double> &C, const glm::dvec3 &P,
                           Rules Rule) {
-  if (C.Optics.Model != LensModel::Pinhole)
+  if (!C.Optics.isPinhole())
     return rowsThrough(C, P, Rule);
   const Jacobian<double> J = jacobian(P, C, Rule);
   return {{J.XX, 0, J.XZ}, {0, J.YY, J.YZ}};
@@ -134,7 +134,7 @@ public:
   /// dL/d(point to the camera now) from dL/d(rows by it).
   glm::dvec3 backThroughRows(std::optional<Rules> Rule,
                              const LensRows<double> &By) const {
-    if (!Rule || C.Optics.Model != LensModel::Pinhole)
+    if (!Rule || !C.Optics.isPinhole())
       return backThrough(C, At, Rule, glm::dvec2(0), By);
     return backThroughJacobian(jacobian(At, C, *Rule), At.z, C.Focal, *Rule,
                                By);

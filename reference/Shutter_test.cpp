@@ -14,9 +14,9 @@ using namespace vorion::reference;
 
 namespace {
 
-Camera<double> moving(LensModel Model) {
-  auto C = frontCamera(64, 48, Model == LensModel::Fisheye ? 25 : 50);
-  setLens(C, Model, {-0.05, 0.01});
+Camera<double> moving(const LensModel *Model) {
+  auto C = frontCamera(64, 48, Model == &lenses::Fisheye ? 25 : 50);
+  setLens(C, *Model, {-0.05, 0.01});
   C.Shutter = {-0.1, 0.15, 1.1, {0.3, -0.2, 0.1}, {0.15, -0.1, 0.2}};
   return C;
 }
@@ -33,8 +33,8 @@ glm::dvec3 turnedBySteps(const glm::dvec3 &Turn, double Part, glm::dvec3 V) {
 }
 
 TEST(Shutter, APointIsSeenFromWhereTheCameraIsAtItsMoment) {
-  for (const LensModel M :
-       {LensModel::Pinhole, LensModel::OpenCv, LensModel::Fisheye}) {
+  for (const LensModel *M :
+       {&lenses::Pinhole, &lenses::OpenCv, &lenses::Fisheye}) {
     const auto C = moving(M);
     for (const glm::dvec3 P :
          {glm::dvec3(0.3, -0.2, 1.5), {-0.5, 0.4, 1.2}, {0.1, 0.6, 2.}}) {
@@ -56,8 +56,8 @@ TEST(Shutter, APointIsSeenFromWhereTheCameraIsAtItsMoment) {
 }
 
 TEST(Shutter, RowsAreDifferencesOfPlaces) {
-  for (const LensModel M :
-       {LensModel::Pinhole, LensModel::OpenCv, LensModel::Fisheye}) {
+  for (const LensModel *M :
+       {&lenses::Pinhole, &lenses::OpenCv, &lenses::Fisheye}) {
     const auto C = moving(M);
     const glm::dvec3 P(0.3, -0.2, 1.5);
     ExposedPoint E;
@@ -169,13 +169,13 @@ TEST(Shutter, TheDilationIsThatOfEachRowsOwnCamera) {
 }
 
 TEST(Shutter, PicturesAlongRaysAreThoseOfTheirRows) {
-  for (const LensModel M : {LensModel::Pinhole, LensModel::OpenCv,
-                            LensModel::Fisheye, LensModel::Orthographic}) {
+  for (const LensModel *M : {&lenses::Pinhole, &lenses::OpenCv,
+                             &lenses::Fisheye, &lenses::Orthographic}) {
     auto C = moving(M);
     C.Width = 24;
     C.Height = 16;
     C.Shutter->Across = 0;
-    setLens(C, M, C.Optics.K);
+    setLens(C, *M, C.Optics.K);
     // Some come in front of the near plane, and some leave it.
     const auto G = randomGaussians(60, 5);
     const auto Rolling = renderAlongRays(G, C, {});
@@ -208,12 +208,12 @@ double agreement(const Gaussians<double> &G, const Camera<double> &C,
 TEST(Shutter, WhatIsFarBesideThePictureDoesNotCoverIt) {
   Gaussians<double> G;
   addRound(G, {31, -2.5, 4.5}, 1.5, 1, glm::dvec3(1));
-  for (const LensModel M : {LensModel::Pinhole, LensModel::OpenCv}) {
+  for (const LensModel *M : {&lenses::Pinhole, &lenses::OpenCv}) {
     auto C = frontCamera(120, 68, 104);
-    setLens(C, M, {});
+    setLens(C, *M, {});
     C.Shutter = {0, 0, 1, {0.02, 0, 0.03}, {0.01, 0.05, 0.01}};
     for (const Spread S : {Spread::Jacobian, Spread::Unscented})
-      EXPECT_GT(agreement(G, C, S), 50) << static_cast<int>(M);
+      EXPECT_GT(agreement(G, C, S), 50) << M->Name;
   }
 }
 

@@ -1,6 +1,8 @@
 /// What the reference renders, how, and from where.
 #pragma once
 
+#include "reference/lens/LensModel.h"
+
 #include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -58,34 +60,21 @@ template <typename Real> struct Gaussians {
   std::size_t size() const { return Opacities.size(); }
 };
 
-/// How a camera maps directions to the picture (docs/cameras.md).
-enum class LensModel {
-  Pinhole,
-  OpenCv,  ///< a pinhole with OpenCV's distortion
-  Fisheye, ///< OpenCV's, equidistant
-  Orthographic,
-  Equirectangular ///< the full sphere
-};
-
-/// OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6, s1 to s4, and then a
-/// coefficient of r^8 over the fraction; of a fisheye k1 to k4.
-using LensCoefficients = std::array<double, 13>;
-
 /// A lens as \c setLens (Lens.h) makes it.
 struct Lens {
-  LensModel Model = LensModel::Pinhole;
+  const LensModel *Model = &lenses::Pinhole;
   LensCoefficients K{};
   /// Up to where the model is one to one: a radius before distortion, or an
   /// angle from the axis. What lies beyond is not drawn.
   double Limit = 0;
-  /// Of OpenCV's model: least and largest x/z and y/z in the picture, without
+  /// Of a model that holds slopes: least and largest x/z and y/z in the picture, without
   /// the tangential part.
   glm::dvec2 SlopesX{0}, SlopesY{0};
 
+  /// A pinhole, whose slopes jacobian() (Projection.h) holds.
+  bool isPinhole() const { return Model == &lenses::Pinhole; }
   /// Whether depth is the distance from the camera, not z.
-  bool byDistance() const {
-    return Model == LensModel::Fisheye || Model == LensModel::Equirectangular;
-  }
+  bool byDistance() const { return Model->ByDistance; }
 };
 
 /// How a camera moves while it exposes its picture: pixel (x, y) at the moment

@@ -30,7 +30,7 @@ bool placeOf(const Camera<Real> &C, const Vec3<Real> &P, Vec2<Real> &At,
 template <typename Real>
 double mostSpread(const Camera<Real> &C, const Options &O) {
   // Parallel rays keep every ellipse one.
-  if (C.Optics.Model == LensModel::Orthographic)
+  if (C.Optics.Model->IsParallel)
     return std::numeric_limits<double>::infinity();
   return O.PointSpread * std::min(1.0, std::max(C.Width / double(C.Focal.x),
                                                 C.Height / double(C.Focal.y)));
@@ -56,8 +56,8 @@ sevenPoints(const Vec3<Real> &Mean, const Mat3<Real> &Axes,
   double Depth = 0;
   if (!placeOf(C, Mean, S.At, Depth))
     return std::nullopt;
-  const bool HasPlane = C.Optics.Model == LensModel::Pinhole ||
-                        C.Optics.Model == LensModel::OpenCv;
+  const bool HasPlane =
+      !C.Optics.Model->ByDistance && !C.Optics.Model->IsParallel;
   const double Most = mostSpread(C, O);
   Vec2<Real> Sum(0);
   for (std::size_t N = 0; N < 6; ++N) {

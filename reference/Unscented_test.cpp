@@ -34,11 +34,11 @@ double difference(const Gaussians<double> &G, const Camera<double> &C,
 
 double decibels(double Squares) { return -10 * std::log10(Squares); }
 
-Camera<double> camera(LensModel M, double Focal) {
+Camera<double> camera(const LensModel *M, double Focal) {
   auto C = frontCamera(Width, Height, Focal);
-  if (M == LensModel::Equirectangular)
+  if (M == &lenses::Equirectangular)
     C.Focal = {Width / (2 * M_PI), Height / M_PI};
-  setLens(C, M, {});
+  setLens(C, *M, {});
   return C;
 }
 
@@ -60,7 +60,7 @@ const std::vector<glm::dvec4> BesidePinhole{
 
 TEST(Unscented, WhatIsBesideAPinholeDoesNotCoverThePicture) {
   for (const double Focal : {20., 40., 300.}) {
-    const auto C = camera(LensModel::Pinhole, Focal);
+    const auto C = camera(&lenses::Pinhole, Focal);
     const auto G = sceneWith(BesidePinhole);
     const double Points = decibels(difference(G, C, Spread::Unscented));
     EXPECT_GT(Points, 23) << Focal;
@@ -72,7 +72,7 @@ TEST(Unscented, WhatIsBesideAPinholeDoesNotCoverThePicture) {
 TEST(Unscented, WhatIsAroundACameraDoesNotCoverThePicture) {
   const std::vector<glm::dvec4> Others{
       {0.9, 0.2, -0.5, 0.5}, {-0.3, -1.1, -0.2, 0.6}, {0.2, 1, 0.3, 0.5}};
-  for (const auto M : {LensModel::Fisheye, LensModel::Equirectangular}) {
+  for (const auto M : {&lenses::Fisheye, &lenses::Equirectangular}) {
     const auto C = camera(M, 18);
     const auto G = sceneWith(Others);
     EXPECT_GT(decibels(difference(G, C, Spread::Unscented)),
@@ -81,7 +81,7 @@ TEST(Unscented, WhatIsAroundACameraDoesNotCoverThePicture) {
 }
 
 TEST(Unscented, LargeGaussiansInViewAreBetterThanByTheJacobian) {
-  const auto C = camera(LensModel::Pinhole, 25);
+  const auto C = camera(&lenses::Pinhole, 25);
   const auto G = sceneWith(
       {{0.8, 0.3, 1.6, 0.3}, {-1, -0.4, 1.8, 0.35}, {-0.2, 0.9, 1.9, 0.35}});
   EXPECT_GT(decibels(difference(G, C, Spread::Unscented)),
@@ -89,7 +89,7 @@ TEST(Unscented, LargeGaussiansInViewAreBetterThanByTheJacobian) {
 }
 
 TEST(Unscented, TheSpreadOfPointsDecidesWhoIsProjectedByThem) {
-  const auto C = camera(LensModel::Pinhole, 40);
+  const auto C = camera(&lenses::Pinhole, 40);
   Gaussians<double> G;
   // Points lie sqrt(3) 0.3 / 2 = 0.26 focal lengths beside the mean.
   addRound(G, {0, 0, 2}, 0.3, 0.9, {1, 1, 1});

@@ -132,7 +132,7 @@ Expected<Success> run(Arguments &A) {
   if (!View)
     return View.error();
   if (A.Order == "ray" && (A.Precision != "f64" || View->Optics.Shutter ||
-                           View->Optics.Model != splat::LensModel::Pinhole))
+                           !View->Optics.isPinhole()))
     return Error{A.Cameras,
                  "--order ray is for --precision f64 and pinholes of one "
                  "moment, expected these"};

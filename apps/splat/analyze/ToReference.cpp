@@ -17,22 +17,6 @@ std::vector<glm::vec<3, Real>> rows3(const std::vector<From> &V) {
   return Rows;
 }
 
-reference::LensModel toReference(LensModel M) {
-  switch (M) {
-  case LensModel::Pinhole:
-    return reference::LensModel::Pinhole;
-  case LensModel::OpenCv:
-    return reference::LensModel::OpenCv;
-  case LensModel::Fisheye:
-    return reference::LensModel::Fisheye;
-  case LensModel::Orthographic:
-    return reference::LensModel::Orthographic;
-  case LensModel::Equirectangular:
-    return reference::LensModel::Equirectangular;
-  }
-  return {};
-}
-
 } // namespace
 
 template <typename Real>
@@ -72,8 +56,9 @@ template <typename Real> reference::Camera<Real> toReference(const Camera &C) {
         Rotation[std::size_t(6) + J] - static_cast<double>(R.Rotation[J][2]));
   R.DepthOffsetLow =
       static_cast<Real>(Translation[2] - static_cast<double>(R.Translation.z));
-  if (C.Optics.Model != LensModel::Pinhole)
-    reference::setLens(R, toReference(C.Optics.Model), C.Optics.K);
+  if (!C.Optics.isPinhole())
+    reference::setLens(R, *reference::lensModelNamed(C.Optics.Model->Name),
+                       C.Optics.K);
   if (const auto &S = C.Optics.Shutter)
     R.Shutter = {S->Start,
                  S->Across,

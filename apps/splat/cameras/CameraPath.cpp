@@ -58,22 +58,18 @@ std::optional<Matrix> matrixOf(const Json &J) {
   return M;
 }
 
-/// The names that nerfstudio's viewer has for its cameras.
-constexpr std::pair<std::string_view, LensModel> Types[] = {
-    {"perspective", LensModel::Pinhole},
-    {"fisheye", LensModel::Fisheye},
-    {"equirectangular", LensModel::Equirectangular}};
-
-Expected<LensModel> modelOf(const std::string &Where, const Json &Document) {
+/// By the names that nerfstudio's viewer has for its cameras.
+Expected<const LensModel *> modelOf(const std::string &Where,
+                                    const Json &Document) {
   const auto Type = Document.find("camera_type");
   if (Type == Document.end())
-    return LensModel::Pinhole;
-  for (const auto &[Name, Model] : Types)
-    if (*Type == Name)
+    return CameraModel().Model;
+  if (Type->is_string())
+    if (const LensModel *Model = lensModelOfViewer(Type->get<std::string>()))
       return Model;
-  return Error{Where, fmt::format("camera_type {}, expected \"perspective\", "
-                                  "\"fisheye\" or \"equirectangular\"",
-                                  printable(jsonText(*Type)))};
+  return Error{Where,
+               fmt::format("camera_type {}, expected {}",
+                           printable(jsonText(*Type)), knownViewerModels())};
 }
 
 /// Pixels of a pinhole whose picture sees \p Fov degrees of height. nerfstudio
@@ -83,11 +79,11 @@ double focalOf(int Height, double Fov) {
 }
 
 /// With the lens of \p Model; the sphere takes no \p Focal.
-Camera posed(const Matrix &M, LensModel Model, int Width, int Height,
+Camera posed(const Matrix &M, const LensModel *Model, int Width, int Height,
              double Focal) {
   Camera C = Camera::ahead(Width, Height, Focal);
   C.Optics.Model = Model;
-  if (Model == LensModel::Equirectangular)
+  if (Model->CoversSphere)
     setSphere(C);
   for (std::size_t R = 0; R < 3; ++R) {
     C.Position[R] = M[4 * R + 3];
@@ -115,7 +111,7 @@ Expected<std::vector<Camera>> parseCameraPath(const std::string &Where,
   const auto Model = modelOf(Where, Document);
   if (!Model)
     return Model.error();
-  const bool IsSphere = *Model == LensModel::Equirectangular;
+  const bool IsSphere = (*Model)->CoversSphere;
   const auto HasSome = [&](const char *Key) {
     const auto It = Document.find(Key);
     return It != Document.end() && It->is_array() && !It->empty();

@@ -68,7 +68,7 @@ TEST(CameraPath, AFisheyeHasThePixelsARadianOfThePinholesFocalLength) {
   ASSERT_TRUE(Read) << Read.error().What;
   for (const Camera &C : *Read) {
     expectPose(C);
-    EXPECT_EQ(C.Optics, (CameraModel{LensModel::Fisheye, {}}));
+    EXPECT_EQ(C.Optics, (CameraModel{&lenses::Fisheye, {}}));
     EXPECT_NEAR(C.Fx, 24, 1e-12);
     EXPECT_EQ(C.Fy, C.Fx);
     EXPECT_EQ(C.Cx, 32);
@@ -86,7 +86,7 @@ TEST(CameraPath, ASphereNeedsNoFieldOfView) {
   setSphere(Sphere);
   for (const Camera &C : *Read) {
     expectPose(C);
-    EXPECT_EQ(C.Optics, (CameraModel{LensModel::Equirectangular, {}}));
+    EXPECT_EQ(C.Optics, (CameraModel{&lenses::Equirectangular, {}}));
     EXPECT_EQ(C.Fx, Sphere.Fx);
     EXPECT_EQ(C.Fy, Sphere.Fy);
     EXPECT_EQ(C.Cy, Sphere.Cy);

@@ -136,7 +136,7 @@ std::size_t Capture::distorted() const {
 std::size_t Capture::photographsAlone() const {
   return static_cast<std::size_t>(
       std::ranges::count_if(Views, [](const CaptureView &V) {
-        return V.Optics.Model == LensModel::Equirectangular || V.Optics.Shutter;
+        return V.Optics.Model->CoversSphere || V.Optics.Shutter;
       }));
 }
 

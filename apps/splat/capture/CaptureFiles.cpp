@@ -74,8 +74,7 @@ Expected<Success> addCamera(const std::string &File, CaptureView V, LensOf Of,
                             CaptureCameras &To) {
   V.Pose.Id = static_cast<int>(To.Cameras.size());
   // A sphere has no pinhole's picture.
-  if (Of == LensOf::Photograph ||
-      V.Optics.Model == LensModel::Equirectangular) {
+  if (Of == LensOf::Photograph || V.Optics.Model->CoversSphere) {
     V.Pose.Optics = V.Optics;
     if (!std::ranges::all_of(V.Optics.K, [](double K) {
           return std::abs(K) <= MostLensCoefficient;

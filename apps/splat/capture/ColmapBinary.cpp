@@ -140,7 +140,7 @@ Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files) {
         if (auto Bad =
                 errorOf(Builder.checkModel(Files.Cameras.Where, Id, *Known)))
           return Bad;
-        std::vector<double> Parameters(Known->Parameters);
+        std::vector<double> Parameters(Known->parameters());
         for (double &P : Parameters)
           P = R.take<double>();
         if (auto Short = R.shortOf("camera", I, Count))

@@ -8,45 +8,23 @@
 namespace vorion::splat {
 namespace {
 
-CameraModel pinhole(std::span<const double> /*P*/) { return {}; }
-
-/// \p P: k1, k2, p1, p2, k3 and so on, as many as there are.
-CameraModel openCvOf(std::span<const double> P) {
-  CameraModel M{LensModel::OpenCv, {}};
-  std::ranges::copy(P, M.K.begin());
-  return M;
-}
-CameraModel radial(std::span<const double> P) { return openCvOf(P.subspan(3)); }
-/// fx, fy, cx, cy come before.
-CameraModel openCv(std::span<const double> P) { return openCvOf(P.subspan(4)); }
-
-CameraModel fisheyeOf(std::span<const double> P) {
-  CameraModel M = openCvOf(P);
-  M.Model = LensModel::Fisheye;
-  return M;
-}
-CameraModel simpleFisheye(std::span<const double> P) {
-  return fisheyeOf(P.subspan(3));
-}
-CameraModel fisheye(std::span<const double> P) {
-  return fisheyeOf(P.subspan(4));
-}
-
-/// Numbers, names and counts of COLMAP's src/colmap/sensor/models.h.
-constexpr ColmapCameraModel Models[] = {
-    {0, "SIMPLE_PINHOLE", 3, pinhole, true},
-    {1, "PINHOLE", 4, pinhole, false},
-    {2, "SIMPLE_RADIAL", 4, radial, true},
-    {3, "RADIAL", 5, radial, true},
-    {4, "OPENCV", 8, openCv, false},
-    {5, "OPENCV_FISHEYE", 8, fisheye, false},
-    {6, "FULL_OPENCV", 12, openCv, false},
-    {7, "FOV", 5, nullptr, false},
-    {8, "SIMPLE_RADIAL_FISHEYE", 4, simpleFisheye, true},
-    {9, "RADIAL_FISHEYE", 5, simpleFisheye, true},
-    {10, "THIN_PRISM_FISHEYE", 12, nullptr, false},
-    {11, "RAD_TAN_THIN_PRISM_FISHEYE", 16, nullptr, false},
+/// Of COLMAP's src/colmap/sensor/models.h, those that have no record in lens/.
+constexpr ColmapLens WithoutLens[] = {
+    {7, "FOV", 2, 1},
+    {10, "THIN_PRISM_FISHEYE", 2, 8},
+    {11, "RAD_TAN_THIN_PRISM_FISHEYE", 2, 12},
 };
+
+std::vector<ColmapCameraModel> makeModels() {
+  std::vector<ColmapCameraModel> Models;
+  for (const LensModel *Lens : lenses::all())
+    for (const ColmapLens &M : Lens->Colmap)
+      Models.push_back({M, Lens});
+  for (const ColmapLens &M : WithoutLens)
+    Models.push_back({M, nullptr});
+  std::ranges::sort(Models, {}, &ColmapCameraModel::Id);
+  return Models;
+}
 
 bool allFinite(std::span<const double> Values) {
   return std::ranges::all_of(Values, [](double V) { return std::isfinite(V); });
@@ -54,12 +32,15 @@ bool allFinite(std::span<const double> Values) {
 
 } // namespace
 
-std::span<const ColmapCameraModel> colmapCameraModels() { return Models; }
+std::span<const ColmapCameraModel> colmapCameraModels() {
+  static const std::vector<ColmapCameraModel> Models = makeModels();
+  return Models;
+}
 
 std::string knownColmapModels() {
   std::vector<std::string_view> Names;
-  for (const ColmapCameraModel &M : Models)
-    if (M.LensOf)
+  for (const ColmapCameraModel &M : colmapCameraModels())
+    if (M.Lens)
       Names.push_back(M.Name);
   return fmt::format("{}", fmt::join(Names, ", "));
 }
@@ -67,7 +48,7 @@ std::string knownColmapModels() {
 Expected<Success> ColmapBuilder::checkModel(const std::string &Where,
                                             int64_t Id,
                                             const ColmapCameraModel &Kind) {
-  if (!Kind.LensOf)
+  if (!Kind.Lens)
     return Error{Where,
                  fmt::format("camera {} has the model {}, expected one of {}: "
                              "undistort the capture first (colmap "
@@ -88,22 +69,24 @@ Expected<Success> ColmapBuilder::addCamera(const std::string &Where, int64_t Id,
                  fmt::format("camera {} has pictures of {}x{} pixels, expected "
                              "sides of 1 to {}",
                              Id, Width, Height, MaxImageSize)};
-  const bool OneFocal = Kind.OneFocal;
   CaptureView Taken;
   Camera &C = Taken.Pose;
   C.Width = static_cast<int>(Width);
   C.Height = static_cast<int>(Height);
+  const std::size_t Focals = Kind.FocalLengths;
   C.Fx = Parameters[0];
-  C.Fy = Parameters[OneFocal ? 0 : 1];
-  C.Cx = Parameters[OneFocal ? 1 : 2];
-  C.Cy = Parameters[OneFocal ? 2 : 3];
+  C.Fy = Parameters[Focals - 1];
+  C.Cx = Parameters[Focals];
+  C.Cy = Parameters[Focals + 1];
   if (!allFinite(Parameters) || !(C.Fx > 0) || !(C.Fy > 0))
     return Error{Where,
                  fmt::format("camera {} has parameters that are no camera, "
                              "expected a positive focal length and a finite "
                              "principal point",
                              Id)};
-  Taken.Optics = simplified(Kind.LensOf(Parameters));
+  CameraModel Optics{Kind.Lens};
+  std::ranges::copy(Parameters.subspan(Focals + 2), Optics.K.begin());
+  Taken.Optics = simplified(Optics);
   if (!Cameras.emplace(Id, Taken).second)
     return Error{Where, fmt::format("camera {} is there twice, expected it "
                                     "once",

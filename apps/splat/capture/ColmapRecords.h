@@ -9,15 +9,9 @@
 
 namespace vorion::splat {
 
-/// A camera model that COLMAP knows.
-struct ColmapCameraModel {
-  int Id;
-  std::string_view Name;
-  std::size_t Parameters;
-  /// What makes a lens of the parameters; null where we have no such lens.
-  CameraModel (*LensOf)(std::span<const double> Parameters);
-  /// The first parameter is both focal lengths.
-  bool OneFocal;
+/// A camera model that COLMAP knows, by the records of lens/.
+struct ColmapCameraModel : ColmapLens {
+  const LensModel *Lens; ///< null where we have no such lens
 };
 std::span<const ColmapCameraModel> colmapCameraModels();
 /// Names of those that have a lens, for messages.

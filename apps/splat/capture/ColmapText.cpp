@@ -111,13 +111,13 @@ Expected<Success> readCameraLines(const ColmapFile &F, ColmapBuilder &B) {
         !Pinhole)
       return Pinhole;
     const auto Size = W.numbers<2>();
-    std::vector<double> Parameters(Model->Parameters);
+    std::vector<double> Parameters(Model->parameters());
     for (double &P : Parameters)
       P = W.number<double>();
     if (!W.good() || !W.rest().empty())
       return badLine(R, fmt::format("CAMERA_ID {} WIDTH HEIGHT and {} "
                                     "parameters",
-                                    Name, Model->Parameters));
+                                    Name, Model->parameters()));
     if (auto Added =
             B.addCamera(R.where(), Id, *Model, Size[0], Size[1], Parameters);
         !Added)

@@ -80,7 +80,7 @@ CameraModel TransformsReader::readLens(const Json &Frame) {
     fail(Lens.error().What);
     return {};
   }
-  if (Lens->Model == LensModel::Orthographic)
+  if (Lens->Model->IsParallel)
     fail("a photograph by an orthographic camera, expected a pinhole's, a "
          "fisheye's or a full sphere");
   return *Lens;
@@ -152,8 +152,8 @@ void TransformsReader::readPose(const Json &Frame, CaptureView &V) {
 }
 
 void TransformsReader::readCamera(const Json &Frame, TransformsView &V) {
-  const auto Read = readIntrinsics(
-      Frame, Document, V.Optics.Model == LensModel::Equirectangular);
+  const auto Read =
+      readIntrinsics(Frame, Document, V.Optics.Model->CoversSphere);
   if (!Read)
     return fail(Read.error().What);
   V.Known = *Read;

@@ -52,13 +52,13 @@ Expected<Success> checkPinhole(const std::string &File, const CaptureView &V,
                                const CaptureOptions &Options) {
   if (Options.Pictures == LensOf::Photograph)
     return Success{};
-  if (V.Optics.Model == LensModel::Equirectangular)
-    return Error{
-        File, fmt::format("frame {} has the camera model EQUIRECTANGULAR, of "
-                          "which there is no pinhole's picture, expected "
-                          "photographs of perspective or fisheye cameras, "
-                          "or --distorted",
-                          printable(V.Pose.Name))};
+  if (V.Optics.Model->CoversSphere)
+    return Error{File,
+                 fmt::format("frame {} has the camera model {}, of "
+                             "which there is no pinhole's picture, expected "
+                             "photographs of perspective or fisheye cameras, "
+                             "or --distorted",
+                             printable(V.Pose.Name), V.Optics.Model->Name)};
   if (V.Optics.Shutter)
     return Error{File,
                  fmt::format("frame {} has a rolling shutter, of which there "

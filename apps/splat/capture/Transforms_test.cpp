@@ -99,7 +99,7 @@ TEST(Transforms, NamesOfModelsAreInAnyCase) {
   J["camera_model"] = "opencv_fisheye";
   const auto T = parsed(J.dump());
   ASSERT_TRUE(T);
-  EXPECT_EQ(T->Views[0].Optics.Model, LensModel::Fisheye);
+  EXPECT_EQ(T->Views[0].Optics.Model, &lenses::Fisheye);
 }
 
 TEST(Transforms, LensesAreOfTheFileOrAFrame) {
@@ -112,8 +112,8 @@ TEST(Transforms, LensesAreOfTheFileOrAFrame) {
              : std::pair(CameraModel(), CameraModel());
   };
   // Its k4 is of r^8.
-  CameraModel Brown{LensModel::OpenCv, {0.1, 0.2, 0.5, 0.6, 0.3}};
-  Brown.K[LensR8] = 0.4;
+  CameraModel Brown{&lenses::OpenCv, {0.1, 0.2, 0.5, 0.6, 0.3}};
+  Brown.K[12] = 0.4;
   const auto Terms = [](Json &J) {
     J.update({{"k1", 0.1}, {"k2", 0.2}, {"k3", 0.3}, {"k4", 0.4}});
   };
@@ -124,9 +124,9 @@ TEST(Transforms, LensesAreOfTheFileOrAFrame) {
     J["frames"][1]["k1"] = 0.7;
   });
   EXPECT_EQ(First, Brown);
-  EXPECT_EQ(Second.K[LensK1], 0.7);
-  EXPECT_EQ(Second.K[LensK2], 0.2);
-  const CameraModel Fisheye{LensModel::Fisheye, {0.1, 0.2, 0.3, 0.4}};
+  EXPECT_EQ(Second.K[0], 0.7);
+  EXPECT_EQ(Second.K[1], 0.2);
+  const CameraModel Fisheye{&lenses::Fisheye, {0.1, 0.2, 0.3, 0.4}};
   EXPECT_EQ(LensesOf([&](Json &J) {
               Terms(J);
               J.erase("camera_model");
@@ -144,7 +144,7 @@ TEST(Transforms, LensesAreOfTheFileOrAFrame) {
               J["camera_model"] = "OPENCV_FISHEYE";
             }).first,
             Fisheye);
-  const CameraModel Full{LensModel::OpenCv, {0.1, 0.2, 0, 0, 0.3, 0.4}};
+  const CameraModel Full{&lenses::OpenCv, {0.1, 0.2, 0, 0, 0.3, 0.4}};
   EXPECT_EQ(LensesOf([&](Json &J) {
               Terms(J);
               J["camera_model"] = "FULL_OPENCV";
@@ -159,7 +159,7 @@ TEST(Transforms, ASphereNeedsNoFocalLength) {
   J.erase("fl_x");
   const auto T = parsed(J.dump());
   ASSERT_TRUE(T) << T.error().What;
-  EXPECT_EQ(T->Views[0].Optics, (CameraModel{LensModel::Equirectangular, {}}));
+  EXPECT_EQ(T->Views[0].Optics, (CameraModel{&lenses::Equirectangular, {}}));
   const Camera &C = T->Views[0].Pose;
   EXPECT_EQ(C.Fx, C.Width / (2 * M_PI));
   EXPECT_EQ(C.Cy, 0.5 * C.Height);

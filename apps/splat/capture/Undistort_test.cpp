@@ -66,7 +66,7 @@ TEST(Undistort, FollowsOpenCvsPolynomials) {
   const double K1 = 0.2, K2 = -0.1, K3 = 0.05, K4 = 0.1, K5 = 0.02, K6 = 0.01;
   const double P1 = 0.01, P2 = -0.02;
   const int Counted = expectPlaces(
-      {LensModel::OpenCv, {K1, K2, P1, P2, K3, K4, K5, K6}},
+      {&lenses::OpenCv, {K1, K2, P1, P2, K3, K4, K5, K6}},
       [&](double X, double Y) -> std::array<double, 2> {
         const double R2 = X * X + Y * Y;
         const double Scale =
@@ -81,7 +81,7 @@ TEST(Undistort, FollowsOpenCvsPolynomials) {
 
 TEST(Undistort, AFisheyesPolynomialIsOfTheAngle) {
   const double K[] = {0.05, -0.02, 0.01, -0.003};
-  EXPECT_EQ(expectPlaces({LensModel::Fisheye, {K[0], K[1], K[2], K[3]}},
+  EXPECT_EQ(expectPlaces({&lenses::Fisheye, {K[0], K[1], K[2], K[3]}},
                          [&](double X, double Y) -> std::array<double, 2> {
                            const double R = std::hypot(X, Y), A = std::atan(R);
                            const double Out =
@@ -96,7 +96,7 @@ TEST(Undistort, AFisheyesPolynomialIsOfTheAngle) {
 
 TEST(Undistort, WhereALensFoldsBackNothingCounts) {
   // r - r^3 / 2 grows up to the root of 2/3.
-  const CameraModel L{LensModel::OpenCv, {-0.5}};
+  const CameraModel L{&lenses::OpenCv, {-0.5}};
   Camera C = pinhole();
   C.Fx = C.Fy = 10;
   const MaskedPlane To = undistorted(places(), C, L);
@@ -105,7 +105,7 @@ TEST(Undistort, WhereALensFoldsBackNothingCounts) {
     const double X = (Column + 0.5 - C.Cx) / 10, Y = -0.5 / 10;
     EXPECT_EQ(To.Counts[At] != 0, X * X + Y * Y <= 2.0 / 3) << Column;
   }
-  const CameraModel None{LensModel::OpenCv, {std::nan("")}};
+  const CameraModel None{&lenses::OpenCv, {std::nan("")}};
   for (const uint8_t Counts : undistorted(places(), C, None).Counts)
     EXPECT_EQ(Counts, 0);
 }
@@ -115,7 +115,7 @@ TEST(Undistort, WhatDoesNotCountStaysSo) {
   From.Counts.assign(From.Picture.pixels(), 1);
   From.Counts[10 * Width + 12] = 0;
   // Shifts by half a pixel, nearly: two pixels are made of it.
-  const CameraModel L{LensModel::OpenCv, {1e-9}};
+  const CameraModel L{&lenses::OpenCv, {1e-9}};
   Camera C = pinhole();
   const MaskedPlane To = undistorted(From, C, L);
   EXPECT_EQ(To.Counts[10 * Width + 12], 0);
@@ -124,14 +124,14 @@ TEST(Undistort, WhatDoesNotCountStaysSo) {
 
 // What is trained on must not change with how the lens is written.
 TEST(Undistort, KeepsItsBits) {
-  CameraModel OfNerfstudio{LensModel::OpenCv, {-0.1, 0.05, 0.01, -0.02, 0.01}};
-  OfNerfstudio.K[LensR8] = 0.02;
+  CameraModel OfNerfstudio{&lenses::OpenCv, {-0.1, 0.05, 0.01, -0.02, 0.01}};
+  OfNerfstudio.K[12] = 0.02;
   const CameraModel Lenses[] = {
-      {LensModel::OpenCv, {0.1}},
-      {LensModel::OpenCv, {-0.08, 0.02, 0.004, -0.003}},
-      {LensModel::OpenCv, {0.2, -0.1, 0.01, -0.02, 0.05, 0.1, 0.02, 0.01}},
+      {&lenses::OpenCv, {0.1}},
+      {&lenses::OpenCv, {-0.08, 0.02, 0.004, -0.003}},
+      {&lenses::OpenCv, {0.2, -0.1, 0.01, -0.02, 0.05, 0.1, 0.02, 0.01}},
       OfNerfstudio,
-      {LensModel::Fisheye, {0.05, -0.02, 0.01, -0.003}}};
+      {&lenses::Fisheye, {0.05, -0.02, 0.01, -0.003}}};
   std::string Hashes;
   for (const CameraModel &L : Lenses) {
     const MaskedPlane To = undistorted(places(), pinhole(), L);

@@ -204,7 +204,7 @@ Expected<AnalyzedCameras> camerasOf(AnalyzeArguments &A, const Scene &S) {
           A.Cameras.File,
           fmt::format("--order-beside: view {} has the camera model "
                       "{}{}, expected PINHOLE",
-                      printable(Of->Name), name(Of->Optics.Model),
+                      printable(Of->Name), Of->Optics.Model->Name,
                       Of->Optics.Shutter ? " and a rolling shutter" : ""),
           ExitCode::Usage};
   return C;

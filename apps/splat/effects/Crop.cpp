@@ -14,14 +14,14 @@ namespace {
 constexpr double Longest = 8192;
 
 Finding detect(const EffectInputs &In) {
-  if (In.Options.Optics == LensModel::Equirectangular ||
+  if (In.Options.Optics->CoversSphere ||
       In.Options.Through != Spread::Jacobian || In.Options.Rolling)
     return {false,
             "not for full spheres, the unscented transform and rolling "
             "shutters",
             false};
   const ViewFacts &F = In.Facts;
-  const bool IsParallel = In.Options.Optics == LensModel::Orthographic;
+  const bool IsParallel = In.Options.Optics->IsParallel;
   const double Length = IsParallel ? F.FocalLength * F.Farthest : F.FocalLength;
   const bool IsLong = Length > Longest;
   return {F.IsCrop || IsLong,

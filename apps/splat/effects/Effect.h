@@ -53,6 +53,8 @@ struct Effect {
   /// empty where it has no code of its own.
   std::string_view Macro = ""; // NOLINT(readability-redundant-string-init)
   Finding (*Detect)(const EffectInputs &) = nullptr;
+  /// In place of that: the lens that a camera has which needs it.
+  const LensModel *Lens = nullptr;
   /// The effect that encloses its code, which is done where this one is; later
   /// in the registry.
   const Effect *Within = nullptr;
@@ -62,6 +64,13 @@ struct Effect {
   /// The camera or an option decides, in every mode: its code is of this
   /// picture's programs alone, and never behind a flag.
   bool ByCamera = false;
+
+  Finding detect(const EffectInputs &In) const {
+    return Lens ? findLens(In) : Detect(In);
+  }
+
+private:
+  Finding findLens(const EffectInputs &In) const;
 };
 
 } // namespace vorion::splat

@@ -135,7 +135,7 @@ EffectPlan::EffectPlan(const EffectRequest &R, const EffectInputs &In) {
   for (const Effect *E : effects::all()) {
     EffectDecision D;
     D.Subject = E;
-    D.Detected = E->Detect(In);
+    D.Detected = E->detect(In);
     const bool Wanted = D.Detected.Applies &&
                         (wanted(R, *E, D.Detected) ||
                          std::ranges::find(Enclosing, E) != Enclosing.end());

@@ -142,14 +142,14 @@ TEST_F(Effects, ACropIsAPrincipalPointOutsideThePicture) {
     C.Cx = At;
     for (const std::string Mode : {"auto", "all", "flags", "sh1"})
       EXPECT_EQ(plan(Mode).of(effects::Crop).Code, EffectCode::Compiled) << At;
-    for (const LensModel M :
-         {LensModel::OpenCv, LensModel::Fisheye, LensModel::Orthographic}) {
+    for (const LensModel *M :
+         {&lenses::OpenCv, &lenses::Fisheye, &lenses::Orthographic}) {
       O.Optics = M;
       EXPECT_TRUE(needed(effects::Crop));
     }
-    O.Optics = LensModel::Equirectangular;
+    O.Optics = &lenses::Equirectangular;
     EXPECT_FALSE(needed(effects::Crop));
-    O.Optics = LensModel::Pinhole;
+    O.Optics = &lenses::Pinhole;
     O.Through = Spread::Unscented;
     EXPECT_FALSE(needed(effects::Crop));
     O.Through = Spread::Jacobian;
@@ -161,15 +161,15 @@ TEST_F(Effects, ALongLensMeasuresFromTheRay) {
   EXPECT_FALSE(needed(effects::Crop));
   C.Fy = 8193;
   EXPECT_TRUE(needed(effects::Crop));
-  O.Optics = LensModel::Fisheye;
+  O.Optics = &lenses::Fisheye;
   EXPECT_TRUE(needed(effects::Crop));
   // Of parallel rays it is the distance in pixels: that of 2 units, then more.
-  O.Optics = LensModel::Orthographic;
+  O.Optics = &lenses::Orthographic;
   C.Fx = C.Fy = 4096;
   EXPECT_FALSE(needed(effects::Crop));
   S.Means[0] = 2.01F;
   EXPECT_TRUE(needed(effects::Crop));
-  O.Optics = LensModel::Pinhole;
+  O.Optics = &lenses::Pinhole;
   EXPECT_FALSE(needed(effects::Crop));
 }
 
@@ -180,9 +180,9 @@ TEST_F(Effects, AWidePictureHasWindows) {
     C = Camera::ahead(64, 48, 50);
     *Side = 4097;
     EXPECT_EQ(plan("flags").of(effects::Windows).Code, EffectCode::Compiled);
-    O.Optics = LensModel::Equirectangular;
+    O.Optics = &lenses::Equirectangular;
     EXPECT_TRUE(needed(effects::Windows));
-    O.Optics = LensModel::Pinhole;
+    O.Optics = &lenses::Pinhole;
     O.Through = Spread::Unscented;
     EXPECT_FALSE(needed(effects::Windows));
     O.Through = Spread::Jacobian;
@@ -237,7 +237,7 @@ TEST_F(Effects, TheNearPlanesShareIsOfWhatTheViewShows) {
   EXPECT_EQ(Facts().BeforeNear, 1U);
   EXPECT_EQ(combined(None, Facts()).BeforeNear, 1U);
   EXPECT_EQ(combined(Facts(), None).BeforeNear, 1U);
-  O.Optics = LensModel::Fisheye;
+  O.Optics = &lenses::Fisheye;
   EXPECT_EQ(Facts().InView, 3U);
   EXPECT_EQ(Facts().BeforeNear, 2U);
 }
@@ -367,27 +367,29 @@ TEST_F(Effects, FlagsHaveABitEach) {
 TEST_F(Effects, TheCameraDecidesItsLensInEveryMode) {
   const auto Flags = choices(plan("flags"));
   for (const std::string Mode : {"auto", "all", "flags", "sh1"}) {
-    O.Optics = LensModel::Fisheye;
+    O.Optics = &lenses::Fisheye;
     const EffectPlan P = plan(Mode);
-    EXPECT_EQ(P.of(effects::FisheyeLens).Code, EffectCode::Compiled) << Mode;
-    EXPECT_EQ(P.of(effects::OpenCvLens).Code, EffectCode::Absent) << Mode;
+    const Effect &Fisheye = *effects::lensOf(lenses::Fisheye);
+    EXPECT_EQ(P.of(Fisheye).Code, EffectCode::Compiled) << Mode;
+    EXPECT_EQ(P.of(*effects::lensOf(lenses::OpenCv)).Code, EffectCode::Absent)
+        << Mode;
     auto Choices = choices(P);
-    EXPECT_EQ(Choices[effects::FisheyeLens.Macro], "1") << Mode;
-    Choices.erase(effects::FisheyeLens.Macro);
+    EXPECT_EQ(Choices[Fisheye.Macro], "1") << Mode;
+    Choices.erase(Fisheye.Macro);
     if (Mode == "flags")
       EXPECT_EQ(Choices, Flags);
-    O.Optics = LensModel::Pinhole;
-    EXPECT_FALSE(plan(Mode).choiceOf(effects::FisheyeLens.Macro)) << Mode;
+    O.Optics = &lenses::Pinhole;
+    EXPECT_FALSE(plan(Mode).choiceOf(Fisheye.Macro)) << Mode;
   }
-  EXPECT_EQ(effects::lensOf(LensModel::Pinhole), nullptr);
-  EXPECT_EQ(effects::lensOf(LensModel::Equirectangular),
-            &effects::EquirectangularLens);
+  EXPECT_EQ(effects::lensOf(lenses::Pinhole), nullptr);
+  EXPECT_EQ(effects::lensOf(lenses::Equirectangular),
+            effects::find("equirectangular"));
 }
 
 TEST_F(Effects, DepthIsADistanceWhereTheLensSeesBehind) {
   S.Means[2] = -2; // behind the camera
   EXPECT_TRUE(needed(effects::NearPlane));
-  O.Optics = LensModel::Fisheye;
+  O.Optics = &lenses::Fisheye;
   const ViewFacts F = factsOf(S, makeView(C, O), O);
   EXPECT_EQ(F.NearestDepth, 2);
 }
@@ -417,7 +419,7 @@ TEST(Registry, NamesAreUniqueAndEveryKindIsThere) {
     EXPECT_TRUE(Names.insert(E->Name).second) << E->Name;
     EXPECT_EQ(effects::find(E->Name), E);
     EXPECT_FALSE(E->What.empty()) << E->Name;
-    EXPECT_NE(E->Detect, nullptr) << E->Name;
+    EXPECT_NE(E->Detect == nullptr, E->Lens == nullptr) << E->Name;
     // Kinds stand together, and what encloses comes after what it encloses.
     EXPECT_TRUE(!Last || Last->Kind <= E->Kind) << E->Name;
     EXPECT_FALSE(E->Within && Names.contains(E->Within->Name)) << E->Name;

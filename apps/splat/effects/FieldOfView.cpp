@@ -9,8 +9,7 @@ namespace vorion::splat {
 namespace {
 
 Finding detect(const EffectInputs &In) {
-  const LensModel Model = In.Options.Optics;
-  if (Model != LensModel::Pinhole && Model != LensModel::OpenCv)
+  if (!In.Options.Optics->HoldsSlopes)
     return {false, "no limits of x/z and y/z with this camera", false};
   if (In.Options.Rolling)
     return {true, "the camera moves while it exposes"};

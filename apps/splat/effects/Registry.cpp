@@ -1,7 +1,7 @@
 #include "effects/Registry.h"
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -19,64 +19,29 @@ std::string_view name(EffectKind K) {
 
 namespace effects {
 
+static std::vector<const Effect *> makeList() {
+  std::vector List{&Sh1,       &Sh2,         &Sh3,   &ViewColor,  &Antialias,
+                   &NearPlane, &FieldOfView, &Faint, &AlphaClamp, &Background};
+  for (const Effect &Lens : ofLenses())
+    List.push_back(&Lens);
+  for (const Effect *E :
+       {&Unscented, &RollingShutter, &Needles,        &Crop,       &Windows,
+        &RayOrder,  &IntersectTags,  &ActivatedScene, &CullBlocks, &ZTiles,
+        &PixelUnit, &SkipSaturated,  &Clock,          &Numerics,   &Checkers,
+        &Traces,    &Debugger,       &SortedPairs,    &Depth,      &Normals,
+        &PixelLists})
+    List.push_back(E);
+  return List;
+}
+
 std::span<const Effect *const> all() {
-  static constexpr std::array List{&Sh1,
-                                   &Sh2,
-                                   &Sh3,
-                                   &ViewColor,
-                                   &Antialias,
-                                   &NearPlane,
-                                   &FieldOfView,
-                                   &Faint,
-                                   &AlphaClamp,
-                                   &Background,
-                                   &OpenCvLens,
-                                   &FisheyeLens,
-                                   &OrthographicLens,
-                                   &EquirectangularLens,
-                                   &Unscented,
-                                   &RollingShutter,
-                                   &Needles,
-                                   &Crop,
-                                   &Windows,
-                                   &RayOrder,
-                                   &IntersectTags,
-                                   &ActivatedScene,
-                                   &CullBlocks,
-                                   &ZTiles,
-                                   &PixelUnit,
-                                   &SkipSaturated,
-                                   &Clock,
-                                   &Numerics,
-                                   &Checkers,
-                                   &Traces,
-                                   &Debugger,
-                                   &SortedPairs,
-                                   &Depth,
-                                   &Normals,
-                                   &PixelLists};
+  static const std::vector<const Effect *> List = makeList();
   return List;
 }
 
 const Effect *find(std::string_view Name) {
   const auto At = std::ranges::find(all(), Name, &Effect::Name);
   return At == all().end() ? nullptr : *At;
-}
-
-const Effect *lensOf(LensModel M) {
-  switch (M) {
-  case LensModel::Pinhole:
-    break;
-  case LensModel::OpenCv:
-    return &OpenCvLens;
-  case LensModel::Fisheye:
-    return &FisheyeLens;
-  case LensModel::Orthographic:
-    return &OrthographicLens;
-  case LensModel::Equirectangular:
-    return &EquirectangularLens;
-  }
-  return nullptr;
 }
 
 } // namespace effects

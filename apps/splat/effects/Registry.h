@@ -17,8 +17,6 @@ extern const Effect FieldOfView;
 extern const Effect Faint;
 extern const Effect AlphaClamp;
 extern const Effect Background;
-extern const Effect OpenCvLens, FisheyeLens, OrthographicLens,
-    EquirectangularLens;
 extern const Effect Unscented;
 extern const Effect RollingShutter;
 extern const Effect Needles;
@@ -52,7 +50,10 @@ std::span<const Effect *const> all();
 /// The effect of that name, or null.
 const Effect *find(std::string_view Name);
 
+/// Those of cameras that are no pinholes, one for each model, behind
+/// Background.
+std::span<const Effect> ofLenses();
 /// That of a camera of model \p M, or null for a pinhole.
-const Effect *lensOf(LensModel M);
+const Effect *lensOf(const LensModel &M);
 
 } // namespace vorion::splat::effects

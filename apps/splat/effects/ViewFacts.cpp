@@ -117,7 +117,7 @@ bool isPointing(const Scene &S, std::size_t I, const splat_view &V, double Z,
                 const RenderOptions &O) {
   constexpr double Least = 0x1p-13, AxisRounding = 0x1p-23,
                    RecordRounding = 0x1p-24;
-  const bool IsParallel = O.Optics == LensModel::Orthographic;
+  const bool IsParallel = O.Optics->IsParallel;
   const double Pixels =
       std::max(std::abs(double(V.focal[0])), std::abs(double(V.focal[1]))) /
       (IsParallel ? 1 : Z);

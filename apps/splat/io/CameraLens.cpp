@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace vorion::splat {
@@ -24,7 +26,7 @@ constexpr const char *ModelKeys[] = {"camera_model", "lens_model",
 /// A list's key, and the names of its numbers by order.
 struct ListKey {
   const char *Key;
-  std::vector<std::string_view> Names;
+  std::span<const std::string_view> Names;
 };
 
 class LensReader {
@@ -53,10 +55,10 @@ private:
   }
 
   /// What \p Value, which \p Key has, calls the model.
-  std::optional<LensModel> modelOf(const char *Key, const Json &Value) {
-    const auto Known =
+  const LensModel *modelOf(const char *Key, const Json &Value) {
+    const LensModel *Known =
         Value.is_string() ? lensModelNamed(Value.get_ref<const std::string &>())
-                          : std::nullopt;
+                          : nullptr;
     if (!Value.is_string())
       fail(fmt::format("key {} is {}, expected a camera model's name, {}", Key,
                        printable(jsonText(Value)), knownLensModels()));
@@ -64,11 +66,12 @@ private:
       fail(fmt::format("key {} calls for the camera model {}, which is not "
                        "supported, expected {}",
                        Key, printable(jsonText(Value)), knownLensModels()));
-    else if (upperCase(Value.get<std::string>()) == "FULL_OPENCV")
-      Full = true;
-    // A distorted pinhole is OpenCV's; which numbers it may have depends on
-    // what it is called.
-    return Known == LensModel::Pinhole ? LensModel::OpenCv : Known;
+    // Which numbers a distorted pinhole may have depends on what it is called.
+    if (Known && Known->WithCoefficients)
+      Known = Known->WithCoefficients;
+    if (Known && upperCase(Value.get<std::string>()) == Known->Name)
+      ByOwnName = true;
+    return Known;
   }
 
   void readModel() {
@@ -77,37 +80,43 @@ private:
       const Json *Value = find(Key);
       if (!Value)
         continue;
-      const auto Model = modelOf(Key, *Value);
-      if (By && Model && *Model != Optics.Model)
+      const LensModel *Model = modelOf(Key, *Value);
+      if (By && Model && Model != Optics.Model)
         fail(fmt::format("keys {} and {} call for two camera models, expected "
                          "one",
                          By, Key));
       By = Key;
       if (Model) {
-        Optics.Model = *Model;
+        Optics.Model = Model;
         Called = upperCase(Value->get<std::string>());
       }
     }
-    const Json *Fisheye = find("is_fisheye");
-    if (!Fisheye)
+    for (const LensModel *Model : lenses::all())
+      if (!Model->Flag.empty())
+        readFlag(*Model, By != nullptr);
+  }
+
+  void readFlag(const LensModel &Model, bool HasName) {
+    const Json *Value = find(std::string(Model.Flag).c_str());
+    if (!Value)
       return;
-    if (!Fisheye->is_boolean())
-      fail(fmt::format("key is_fisheye is {}, expected true or false",
-                       printable(jsonText(*Fisheye))));
-    else if (!Fisheye->get<bool>())
+    if (!Value->is_boolean())
+      fail(fmt::format("key {} is {}, expected true or false", Model.Flag,
+                       printable(jsonText(*Value))));
+    else if (!Value->get<bool>())
       return;
-    else if (By && Optics.Model != LensModel::Fisheye)
-      fail(fmt::format("key is_fisheye calls for OPENCV_FISHEYE, but the "
-                       "camera's model is {}, expected one of both",
-                       Called));
-    else if (!By)
-      Called = name(LensModel::Fisheye);
-    Optics.Model = LensModel::Fisheye;
+    else if (HasName && Optics.Model != &Model)
+      fail(fmt::format("key {} calls for {}, but the camera's model is {}, "
+                       "expected one of both",
+                       Model.Flag, Model.Name, Called));
+    else if (!HasName)
+      Called = Model.Name;
+    Optics.Model = &Model;
   }
 
   /// The place of \p Name among the model's, or nothing.
   std::optional<std::size_t> placeOf(std::string_view Name) const {
-    const auto Keys = Optics.keys();
+    const auto Keys = Optics.Model->Keys;
     const auto At = std::ranges::find(Keys, Name);
     if (At == Keys.end())
       return std::nullopt;
@@ -131,41 +140,46 @@ private:
   }
 
   void readNumbers() {
-    for (const std::string_view Name : LensKeys) {
+    const LensModel &Model = *Optics.Model;
+    for (const std::string_view Name : keysOfNumbers()) {
       const std::string Key(Name);
       const Json *Value = find(Key.c_str());
       if (!Value)
         continue;
-      const bool IsPlain = Optics.Model == LensModel::OpenCv && !Full;
-      if (IsPlain && Name == "k4" && K4 == FourthTerm::Above) {
-        set("k4", "r8", *Value);
+      if (!ByOwnName && Name == "k4" && K4 == FourthTerm::Above &&
+          !Model.KeyOfFourthTerm.empty()) {
+        set("k4", Model.KeyOfFourthTerm, *Value);
         continue;
       }
       set(Key.c_str(), Name, *Value);
-      // k4 is OpenCV's first number under the fraction, and nerfstudio's fourth
-      // above it.
       const auto Place = placeOf(Name);
-      if (IsPlain && Place && *Place >= LensK4 && *Place < LensR8 &&
-          Optics.K[*Place] != 0)
+      if (!ByOwnName && Place && Optics.K[*Place] != 0 &&
+          std::ranges::find(Model.AmbiguousKeys, Name) !=
+              Model.AmbiguousKeys.end())
         fail(fmt::format("key {} means different things to different programs, "
-                         "expected camera_model FULL_OPENCV with it, or 0",
-                         Key));
+                         "expected camera_model {} with it, or 0",
+                         Key, Model.Name));
     }
   }
 
+  /// Those that a pinhole may have, whichever the model is, so that it is said
+  /// of what it does not have; and the model's own.
+  std::vector<std::string_view> keysOfNumbers() const {
+    const auto Usual = WithoutName.Keys, Own = Optics.Model->Keys;
+    std::vector<std::string_view> All(Usual.begin(), Usual.end());
+    std::ranges::copy_if(Own, std::back_inserter(All), [&](auto Key) {
+      return std::ranges::find(Usual, Key) == Usual.end();
+    });
+    return All;
+  }
+
   void readLists() {
-    // OpenCV's next are of a tilted sensor.
-    std::vector<std::string_view> All(LensKeys.begin(),
-                                      LensKeys.begin() + LensR8);
-    std::vector<std::string_view> Radial{"k1", "k2", "k3", "k4", "k5", "k6"};
-    if (Optics.Model == LensModel::Fisheye) {
-      All.assign(FisheyeKeys.begin(), FisheyeKeys.end());
-      Radial = All;
-    }
-    const ListKey Lists[] = {{"dist_coeffs", All},
-                             {"radial_coeffs", Radial},
-                             {"tangential_coeffs", {"p1", "p2"}},
-                             {"thin_prism_coeffs", {"s1", "s2", "s3", "s4"}}};
+    static constexpr std::string_view Tangential[] = {"p1", "p2"},
+                                      ThinPrism[] = {"s1", "s2", "s3", "s4"};
+    const ListKey Lists[] = {{"dist_coeffs", Optics.Model->ListKeys},
+                             {"radial_coeffs", Optics.Model->RadialListKeys},
+                             {"tangential_coeffs", Tangential},
+                             {"thin_prism_coeffs", ThinPrism}};
     for (const auto &[Key, Names] : Lists) {
       const Json *Value = find(Key);
       if (!Value)
@@ -182,10 +196,12 @@ private:
 
   const KeyFinder &Find;
   FourthTerm K4;
-  CameraModel Optics{LensModel::OpenCv, {}};
+  /// Without a model's name coefficients are those of a pinhole.
+  const LensModel &WithoutName = *CameraModel().Model->WithCoefficients;
+  CameraModel Optics{&WithoutName};
   /// As the file has the model's name; without one no coefficient is wrong.
   std::string Called = "OPENCV";
-  bool Full = false;
+  bool ByOwnName = false; ///< of the model: no key is ambiguous
   std::optional<std::string> Problem;
 };
 
@@ -194,8 +210,8 @@ private:
 Json lensJson(const CameraModel &M) {
   if (M.isPinhole())
     return nullptr;
-  Json Lens{{"camera_model", name(M.Model)}};
-  const auto Keys = M.keys();
+  Json Lens{{"camera_model", M.Model->Name}};
+  const auto Keys = M.Model->Keys;
   for (std::size_t K = 0; K < Keys.size(); ++K)
     Lens[std::string(Keys[K])] = M.K[K];
   return Lens;

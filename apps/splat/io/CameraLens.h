@@ -34,8 +34,8 @@ Expected<CameraModel> readLens(const KeyFinder &Find,
 /// pinhole.
 nlohmann::json lensJson(const CameraModel &M);
 
-/// Gives the equirectangular \p C, whose size is there, its focal lengths and
-/// principal point: it sees the full sphere.
+/// Gives \p C, whose lens covers the sphere and whose size is there, its focal
+/// lengths and principal point: it sees the full sphere.
 void setSphere(Camera &C);
 
 } // namespace vorion::splat

@@ -12,10 +12,10 @@ namespace {
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 double openCvLimit(LensCoefficients K) {
-  return CameraModel{LensModel::OpenCv, K}.limit();
+  return CameraModel{&lenses::OpenCv, K}.limit();
 }
 double fisheyeLimit(LensCoefficients K) {
-  return CameraModel{LensModel::Fisheye, K}.limit();
+  return CameraModel{&lenses::Fisheye, K}.limit();
 }
 
 TEST(CameraModel, OpenCvsLimitIsWhereRadiiTurnBackOrHaveAPole) {
@@ -49,18 +49,18 @@ TEST(CameraModel, AFisheyesLimitIsAnAngle) {
 }
 
 TEST(CameraModel, APinholeSeesAFisheyeUpToARightAngle) {
-  EXPECT_EQ((CameraModel{LensModel::Fisheye, {}}).reach(), Infinity);
-  EXPECT_NEAR((CameraModel{LensModel::Fisheye, {-0.3}}).reach(),
+  EXPECT_EQ((CameraModel{&lenses::Fisheye, {}}).reach(), Infinity);
+  EXPECT_NEAR((CameraModel{&lenses::Fisheye, {-0.3}}).reach(),
               std::tan(std::sqrt(1 / 0.9)), 1e-12);
-  EXPECT_EQ((CameraModel{LensModel::Fisheye, {-0.1}}).reach(), Infinity);
+  EXPECT_EQ((CameraModel{&lenses::Fisheye, {-0.1}}).reach(), Infinity);
 }
 
 // The places of reference/Lens_test.cpp, by OpenCV 4.6.
 TEST(CameraModel, PlacesAreThoseOfOpenCv) {
-  const CameraModel Barrel{LensModel::OpenCv,
+  const CameraModel Barrel{&lenses::OpenCv,
                            {-0.28, 0.09, 0.002, -0.003, -0.012, 0.03, 0.02,
                             0.001, 0.004, -0.001, 0.002, 0.0005}};
-  const CameraModel Fish{LensModel::Fisheye, {0.05, -0.01, 0.004, -0.0008}};
+  const CameraModel Fish{&lenses::Fisheye, {0.05, -0.01, 0.004, -0.0008}};
   const auto Expect = [](const CameraModel &M, double X, double Y, double AtX,
                          double AtY) {
     const auto [U, V] = M.distorted(X, Y);
@@ -74,7 +74,7 @@ TEST(CameraModel, PlacesAreThoseOfOpenCv) {
 }
 
 TEST(CameraModel, UndistortingIsTheWayBack) {
-  const CameraModel M{LensModel::OpenCv,
+  const CameraModel M{&lenses::OpenCv,
                       {-0.25, 0.05, 0.1, 0.1, 0.01, 0.02, 0.01, 0.005}};
   for (const double R : {0., 0.1, 0.5, 1.}) {
     const double Q = R * R;
@@ -82,17 +82,17 @@ TEST(CameraModel, UndistortingIsTheWayBack) {
                              (1 + Q * (0.02 + Q * (0.01 + Q * 0.005)));
     EXPECT_NEAR(M.undistorted(Distorted), R, 1e-12);
   }
-  const CameraModel Fold{LensModel::OpenCv, {-0.3}};
+  const CameraModel Fold{&lenses::OpenCv, {-0.3}};
   EXPECT_EQ(Fold.undistorted(5), Fold.limit());
 }
 
 TEST(CameraModel, DirectionsAreTheWayBack) {
   const CameraModel Models[] = {
       {},
-      {LensModel::OpenCv,
+      {&lenses::OpenCv,
        {-0.28, 0.09, 0.002, -0.003, -0.012, 0.03, 0.02, 0.001, 0.004, -0.001,
         0.002, 0.0005}},
-      {LensModel::Fisheye, {0.05, -0.01, 0.004, -0.0008}}};
+      {&lenses::Fisheye, {0.05, -0.01, 0.004, -0.0008}}};
   for (const CameraModel &M : Models)
     for (const double X : {-0.4, 0.0, 0.7})
       for (const double Y : {0.0, 0.5}) {
@@ -104,13 +104,13 @@ TEST(CameraModel, DirectionsAreTheWayBack) {
         EXPECT_NEAR(std::hypot((*D)[0], (*D)[1], (*D)[2]), 1, 1e-15);
       }
   // Behind the camera, and where the lens shows nothing.
-  const CameraModel Fisheye{LensModel::Fisheye};
+  const CameraModel Fisheye{&lenses::Fisheye};
   const auto Behind = Fisheye.direction(0, 2.5);
   ASSERT_TRUE(Behind.has_value());
   EXPECT_NEAR((*Behind)[1], std::sin(2.5), 1e-15);
   EXPECT_NEAR((*Behind)[2], std::cos(2.5), 1e-15);
   EXPECT_FALSE(Fisheye.direction(3, 2).has_value());
-  const CameraModel Fold{LensModel::OpenCv, {-0.3}};
+  const CameraModel Fold{&lenses::OpenCv, {-0.3}};
   EXPECT_FALSE(Fold.direction(0.8, 0).has_value());
 }
 

@@ -63,7 +63,7 @@ public:
       fail(Lens.error().What);
     if (auto Wrong = readShutter(Find, C))
       fail(std::move(*Wrong));
-    if (C.Optics.Model == LensModel::Equirectangular) {
+    if (C.Optics.Model->CoversSphere) {
       setSphere(C);
     } else {
       C.Fx = focal("fx");

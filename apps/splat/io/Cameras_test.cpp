@@ -185,7 +185,7 @@ TEST(Cameras, LensesAreReadByAllTheirNames) {
     EXPECT_TRUE(C) << Keys << ": " << C.error().What;
     return C ? C->front() : Camera();
   };
-  const auto Expect = [&](const nlohmann::json &Keys, LensModel M,
+  const auto Expect = [&](const nlohmann::json &Keys, const LensModel *M,
                           const LensCoefficients &K) {
     const Camera C = With(Keys);
     EXPECT_EQ(C.Optics, (CameraModel{M, K})) << Keys;
@@ -196,27 +196,27 @@ TEST(Cameras, LensesAreReadByAllTheirNames) {
     EXPECT_EQ(Again->front(), C);
   };
   Expect({{"k1", 0.1}, {"k2", 0.2}, {"p1", 0.3}, {"p2", 0.4}, {"k3", 0.5}},
-         LensModel::OpenCv, {0.1, 0.2, 0.3, 0.4, 0.5});
-  Expect({{"camera_model", "SIMPLE_RADIAL"}, {"k1", 0.1}}, LensModel::OpenCv,
+         &lenses::OpenCv, {0.1, 0.2, 0.3, 0.4, 0.5});
+  Expect({{"camera_model", "SIMPLE_RADIAL"}, {"k1", 0.1}}, &lenses::OpenCv,
          {0.1});
   Expect({{"camera_model", "FULL_OPENCV"}, {"k4", 0.1}, {"k6", 0.2}, {"s4", 1}},
-         LensModel::OpenCv, {0, 0, 0, 0, 0, 0.1, 0, 0.2, 0, 0, 0, 1});
-  Expect({{"dist_coeffs", {1, 2, 3, 4, 5, 6, 7, 8}}}, LensModel::OpenCv,
+         &lenses::OpenCv, {0, 0, 0, 0, 0, 0.1, 0, 0.2, 0, 0, 0, 1});
+  Expect({{"dist_coeffs", {1, 2, 3, 4, 5, 6, 7, 8}}}, &lenses::OpenCv,
          {1, 2, 3, 4, 5, 6, 7, 8});
   Expect({{"camera_model", "OPENCV"}, {"k1", 0.1}, {"r8", 0.2}},
-         LensModel::OpenCv, {0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.2});
+         &lenses::OpenCv, {0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.2});
   Expect({{"camera_model", "pinhole"},
           {"radial_coeffs", {1, 2, 3, 4, 5, 6}},
           {"tangential_coeffs", {7, 8}},
           {"thin_prism_coeffs", {9, 10, 11, 12}}},
-         LensModel::OpenCv, {1, 2, 7, 8, 3, 4, 5, 6, 9, 10, 11, 12});
+         &lenses::OpenCv, {1, 2, 7, 8, 3, 4, 5, 6, 9, 10, 11, 12});
   Expect({{"camera_model", "OPENCV_FISHEYE"}, {"k1", 1}, {"k4", 4}},
-         LensModel::Fisheye, {1, 0, 0, 4});
+         &lenses::Fisheye, {1, 0, 0, 4});
   Expect({{"camera_model", "fisheye"}, {"radial_coeffs", {1, 2, 3, 4}}},
-         LensModel::Fisheye, {1, 2, 3, 4});
-  Expect({{"is_fisheye", true}}, LensModel::Fisheye, {});
-  Expect({{"camera_model", "ORTHOPHOTO"}}, LensModel::Orthographic, {});
-  Expect({{"camera_type", "equirectangular"}}, LensModel::Equirectangular, {});
+         &lenses::Fisheye, {1, 2, 3, 4});
+  Expect({{"is_fisheye", true}}, &lenses::Fisheye, {});
+  Expect({{"camera_model", "ORTHOPHOTO"}}, &lenses::Orthographic, {});
+  Expect({{"camera_type", "equirectangular"}}, &lenses::Equirectangular, {});
   const Camera Sphere = With({{"camera_model", "EQUIRECTANGULAR"}});
   EXPECT_EQ(Sphere.Fx, Sphere.Width / (2 * M_PI));
   EXPECT_EQ(Sphere.Cy, 0.5 * Sphere.Height);

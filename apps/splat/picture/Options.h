@@ -71,7 +71,7 @@ struct RenderOptions {
   /// The smallest alpha that is blended, in 1/255: 1, 2, 4 or 8.
   unsigned AlphaCutoff = 1;
   /// What the cameras are; pinholes among OpenCV's count as such.
-  LensModel Optics = LensModel::Pinhole;
+  const LensModel *Optics = &lenses::Pinhole;
   Spread Through = Spread::Jacobian;
   /// Whether a camera moves while it exposes.
   bool Rolling = false;
@@ -123,9 +123,7 @@ struct RenderOptions {
     return Near.value_or(splat::nearLimit(Convention));
   }
   /// Whether depth is the distance from the camera, not z.
-  bool byDistance() const {
-    return Optics == LensModel::Fisheye || Optics == LensModel::Equirectangular;
-  }
+  bool byDistance() const { return Optics->byDistance(); }
 
   /// Width and height of a tile of the path, px.
   unsigned tileSize() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 
 namespace vorion::splat {
@@ -18,7 +19,7 @@ void split(double Value, float &High, float &Low) {
   Low = static_cast<float>(Value - static_cast<double>(High));
 }
 
-/// The counterpart of the pinhole's limits for OpenCV's distortion: x/z and y/z
+/// The counterpart of the pinhole's limits for a distortion: x/z and y/z
 /// that the picture's corners and the middles of its sides see by the radial
 /// part, and as far beyond as the rules say.
 void setDistortedLimits(splat_view &V, const Camera &C, Rules Convention) {
@@ -82,13 +83,13 @@ splat_view makeView(const Camera &C, const RenderOptions &Options) {
       V.ratio_high[A] = (Side - V.center[A]) / V.focal[A] + 0.3F * Tangent;
     }
   }
-  if (Options.Optics == LensModel::OpenCv)
-    setDistortedLimits(V, C, Options.Convention);
-  else if (Options.Optics != LensModel::Pinhole)
+  if (!Options.Optics->HoldsSlopes)
     for (int A = 0; A < 2; ++A) {
       V.ratio_low[A] = -Infinity;
       V.ratio_high[A] = Infinity;
     }
+  else if (!Options.Optics->isPinhole())
+    setDistortedLimits(V, C, Options.Convention);
   return V;
 }
 
@@ -96,20 +97,11 @@ splat_lens makeLens(const Camera &C) {
   splat_lens L{};
   std::ranges::transform(C.Optics.K, L.k,
                          [](double K) { return static_cast<float>(K); });
-  const double Limit = C.Optics.limit();
-  switch (C.Optics.Model) {
-  case LensModel::Equirectangular:
-    L.limit = static_cast<float>(std::sin(M_PI / (2 * C.Height)));
-    break;
-  case LensModel::Fisheye:
-    L.limit = static_cast<float>(Limit);
-    break;
-  default:
-    L.limit = static_cast<float>(Limit * Limit);
-  }
+  const LensModel &Model = *C.Optics.Model;
+  L.limit = static_cast<float>(Model.KernelLimit(C.Optics.limit(), C.Height));
   // Parallel rays keep every ellipse one.
   const double Spread =
-      C.Optics.Model == LensModel::Orthographic
+      Model.IsParallel
           ? Infinity
           : 0.5 * std::min(1.0, std::max(C.Width / C.Fx, C.Height / C.Fy));
   L.most_spread = static_cast<float>(Spread * Spread);
@@ -140,69 +132,37 @@ bool isCrop(const splat_view &V) {
 
 namespace {
 
-/// Two vectors.
-using Pair = std::array<std::array<double, 3>, 2>;
-
-/// The ray through \p Place of a full sphere, and the directions to its right
-/// and down.
-Pair besideOnSphere(const Camera &C, const double *Place, splat_crop &Crop) {
-  const double Longitude = (Place[0] - C.Cx) / C.Fx;
-  const double Latitude = (Place[1] - C.Cy) / C.Fy;
-  const double Known[] = {std::sin(Longitude), std::cos(Longitude),
-                          std::sin(Latitude), std::cos(Latitude)};
-  std::ranges::transform(Known, Crop.ray,
-                         [](double K) { return static_cast<float>(K); });
-  return {{{Known[1], 0, -Known[0]},
-           {-Known[0] * Known[2], Known[3], -Known[1] * Known[2]}}};
-}
-
 /// From the ray through \p Place, which becomes that of the axis where the lens
 /// shows nothing there.
-Pair besideRay(const Camera &C, double *Place, splat_crop &Crop) {
+RayFrame frameAt(const Camera &C, std::array<double, 2> &Place) {
   const double Focal[2] = {C.Fx, C.Fy};
   const double Center[2] = {C.Cx, C.Cy};
   auto Ray = C.Optics.direction((Place[0] - Center[0]) / Focal[0],
                                 (Place[1] - Center[1]) / Focal[1]);
   if (!Ray) {
     Ray = {0, 0, 1};
-    std::ranges::copy(Center, Place);
+    std::ranges::copy(Center, Place.begin());
   }
-  const auto [X, Y, Z] = *Ray;
-  switch (C.Optics.Model) {
-  case LensModel::Fisheye: {
-    const double Sine = std::hypot(X, Y);
-    const double Out[2] = {Sine > 0 ? X / Sine : 1, Sine > 0 ? Y / Sine : 0};
-    const double Known[] = {std::atan2(Sine, Z), Z, Sine, Out[0], Out[1]};
-    std::ranges::transform(Known, Crop.ray,
-                           [](double K) { return static_cast<float>(K); });
-    return {{{Out[0] * Z, Out[1] * Z, -Sine}, {-Out[1], Out[0], 0}}};
-  }
-  case LensModel::Orthographic:
-    for (int A = 0; A < 2; ++A)
-      split((Place[A] - Center[A]) / Focal[A], Crop.start[A],
-            Crop.start_low[A]);
-    return {{{1, 0, 0}, {0, 1, 0}}};
-  default:
-    Crop.ray[0] = static_cast<float>(X / Z);
-    Crop.ray[1] = static_cast<float>(Y / Z);
-    return {{{1, 0, -X / Z}, {0, 1, -Y / Z}}};
-  }
+  return C.Optics.Model->Frame(*Ray, (Place[0] - Center[0]) / Focal[0],
+                               (Place[1] - Center[1]) / Focal[1]);
 }
 
 /// Measured from the ray through (\p X, \p Y), in pixels from \p First.
 splat_crop makeCrop(const Camera &C, double X, double Y,
                     const std::array<double, 2> &First) {
   splat_crop Crop{};
-  double Place[2] = {X, Y};
-  const Pair Beside = C.Optics.Model == LensModel::Equirectangular
-                          ? besideOnSphere(C, Place, Crop)
-                          : besideRay(C, Place, Crop);
+  std::array Place{X, Y};
+  const RayFrame Frame = frameAt(C, Place);
+  std::ranges::transform(Frame.Ray, Crop.ray,
+                         [](double K) { return static_cast<float>(K); });
   const auto Rotation = C.worldToCameraRotation();
   for (std::size_t A = 0; A < 2; ++A) {
     Crop.place[A] = static_cast<float>(Place[A] - First[A]);
+    split(Frame.Start[A], Crop.start[A], Crop.start_low[A]);
     for (std::size_t K = 0; K < 3; ++K)
-      split(Beside[A][0] * Rotation[K] + Beside[A][1] * Rotation[3 + K] +
-                Beside[A][2] * Rotation[6 + K],
+      split(Frame.Beside[A][0] * Rotation[K] +
+                Frame.Beside[A][1] * Rotation[3 + K] +
+                Frame.Beside[A][2] * Rotation[6 + K],
             Crop.across[A][K], Crop.across_low[A][K]);
   }
   return Crop;
@@ -230,24 +190,33 @@ bool isRolling(const std::vector<Camera> &Cameras) {
       Cameras, [](const Camera &C) { return C.Optics.Shutter.has_value(); });
 }
 
-bool isDrawnBy(LensModel Program, const Camera &C) {
-  return C.Optics.Model == Program ||
-         (Program == LensModel::OpenCv && C.Optics.Model == LensModel::Pinhole);
+bool isDrawnBy(const LensModel &Program, const Camera &C) {
+  return C.Optics.Model == &Program ||
+         (Program.IsDistortion && C.Optics.isPinhole());
 }
 
-Expected<LensModel> commonModel(const std::string &Path,
-                                const std::vector<Camera> &Cameras) {
-  LensModel Common = LensModel::Pinhole;
+/// The models whose programs draw pinholes, too, for messages.
+static std::string distortions() {
+  std::vector<std::string_view> Names;
+  for (const LensModel *M : lenses::all())
+    if (M->IsDistortion)
+      Names.push_back(M->Name);
+  return fmt::format("{}", fmt::join(Names, " or "));
+}
+
+Expected<const LensModel *> commonModel(const std::string &Path,
+                                        const std::vector<Camera> &Cameras) {
+  const LensModel *Common = CameraModel().Model;
   for (const Camera &C : Cameras)
-    if (C.Optics.Model != LensModel::Pinhole)
+    if (!C.Optics.isPinhole())
       Common = C.Optics.Model;
   for (const Camera &C : Cameras)
-    if (!isDrawnBy(Common, C))
-      return Error{Path,
-                   fmt::format("cameras {} and {} in one run, expected one "
-                               "camera model (or PINHOLE beside FULL_OPENCV): "
-                               "choose views of one model",
-                               name(Common), name(C.Optics.Model))};
+    if (!isDrawnBy(*Common, C))
+      return Error{
+          Path, fmt::format("cameras {} and {} in one run, expected one "
+                            "camera model (or PINHOLE beside {}): "
+                            "choose views of one model",
+                            Common->Name, C.Optics.Model->Name, distortions())};
   return Common;
 }
 

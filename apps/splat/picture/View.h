@@ -24,7 +24,7 @@ splat_shutter makeShutter(const Camera &C);
 bool isCrop(const splat_view &V);
 
 /// From what places in a picture are measured where fp32 has too few digits for
-/// them, which is not that of an equirectangular camera.
+/// them, which is not that of a full sphere.
 splat_crop makeCrop(const Camera &C);
 
 /// Likewise in the windows of a picture, whose sides are 2^\p Bits px: row by
@@ -32,8 +32,8 @@ splat_crop makeCrop(const Camera &C);
 std::vector<splat_crop> makeWindows(const Camera &C, unsigned Bits);
 
 /// The model by which one program draws all of \p Cameras, \p Path's: the one
-/// that they have, or OpenCV's for pinholes among such.
-Expected<LensModel> commonModel(const std::string &Path,
+/// that they have, or a distortion for pinholes among such.
+Expected<const LensModel *> commonModel(const std::string &Path,
                                 const std::vector<Camera> &Cameras);
 
 /// Whether one of \p Cameras moves while it exposes.
@@ -45,6 +45,6 @@ Expected<Success> drawThrough(RenderOptions &O, const std::string &Path,
                               const std::vector<Camera> &Cameras);
 
 /// Whether a program for cameras of model \p Program draws \p C.
-bool isDrawnBy(LensModel Program, const Camera &C);
+bool isDrawnBy(const LensModel &Program, const Camera &C);
 
 } // namespace vorion::splat

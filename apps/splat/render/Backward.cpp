@@ -50,7 +50,7 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
       .STORED_PARAMETERS = B.Parameters == GradientsOf::Stored,
       .POSES = B.Poses};
   choose(Project, O);
-  if (const Effect *Lens = effects::lensOf(O.Optics))
+  if (const Effect *Lens = effects::lensOf(*O.Optics))
     compile(Project, *Lens);
   if (O.Rolling)
     Project.USE_ROLLING_SHUTTER = On;

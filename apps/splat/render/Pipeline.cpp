@@ -112,27 +112,27 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   Current.View = makeView(C, Options);
   Current.View.effects = Plan.flags();
   Current.Gaussians = Gaussians;
-  if (!isDrawnBy(Options.Optics, C))
+  if (!isDrawnBy(*Options.Optics, C))
     return Launch.fail(
         {"", fmt::format("a camera of model {}, expected {}",
-                         name(C.Optics.Model), name(Options.Optics))});
+                         C.Optics.Model->Name, Options.Optics->Name)});
   if (C.Optics.Shutter && !Options.Rolling)
     return Launch.fail({"", "a camera with a rolling shutter, expected one of "
                             "one moment"});
   const bool IsPinhole =
-      Options.Optics == LensModel::Pinhole && !Options.Rolling;
+      Options.Optics->isPinhole() && !Options.Rolling;
   const auto FailWithout = [&](std::string_view Option, std::string_view Why) {
     Launch.fail(
         {"",
          fmt::format("{}: a camera of model {}{}, expected a pinhole, {}",
-                     Option, name(C.Optics.Model),
+                     Option, C.Optics.Model->Name,
                      Options.Rolling ? " with a rolling shutter" : "", Why)});
   };
   if (Plan.done(effects::RayOrder) && !IsPinhole)
     return FailWithout("--order ray", "whose rays come from one point");
   if (Plan.done(effects::CullBlocks) && !IsPinhole)
     return FailWithout("--cull-blocks", "which sees between planes");
-  Current.Copies = Options.Optics == LensModel::Equirectangular ? 3 : 1;
+  Current.Copies = Options.Optics->CoversSphere ? 3 : 1;
   Launch.beginStage(Stage::Project);
   project(C);
   // What was read back says how much memory the rest needs.
@@ -204,9 +204,9 @@ cl::Buffer Pipeline::cullBlocks() {
   return Verdicts;
 }
 
-/// HAS_LENS of kernels/has_lens.h.
+/// HAS_LENS of the kernels.
 static bool hasLens(const RenderOptions &O) {
-  return O.Optics != LensModel::Pinhole || O.Through == Spread::Unscented ||
+  return !O.Optics->isPinhole() || O.Through == Spread::Unscented ||
          O.Rolling;
 }
 

@@ -67,8 +67,8 @@ std::string hashView(const Camera &View) {
   append(All, View.Position);
   for (const auto &Row : View.Rotation)
     append(All, Row);
-  if (View.Optics.Model != LensModel::Pinhole) {
-    All += name(View.Optics.Model);
+  if (!View.Optics.isPinhole()) {
+    All += View.Optics.Model->Name;
     append(All, View.Optics.K);
   }
   if (const auto &S = View.Optics.Shutter) {

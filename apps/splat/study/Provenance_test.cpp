@@ -54,7 +54,7 @@ TEST(Provenance, ACaptureIsWhatItsLensesAreToo) {
   Capture C = oneView(F);
   CaptureView &View = C.Views.front();
   const auto Straight = hashCapture(C);
-  View.Optics = {LensModel::OpenCv, {0.1}};
+  View.Optics = {&lenses::OpenCv, {0.1}};
   const auto Bent = hashCapture(C);
   ASSERT_TRUE(Straight && Bent);
   EXPECT_NE(*Straight, *Bent);

@@ -101,7 +101,7 @@ Expected<Camera> cameraOf(const Json &Of) {
       return Error{"", "the request's lens: " + Read.error().What,
                    ExitCode::Usage};
     C.Optics = *Read;
-    if (C.Optics.Model == LensModel::Equirectangular)
+    if (C.Optics.Model->CoversSphere)
       setSphere(C);
   }
   return C;

@@ -43,9 +43,9 @@ TEST(ViewRequest, ALensIsThatOfCamerasFiles) {
   Asked["camera"]["lens"] = {{"camera_model", "OPENCV_FISHEYE"}, {"k1", 0.1}};
   const auto R = parseViewRequest(Asked.dump());
   ASSERT_TRUE(R) << R.error().What;
-  EXPECT_EQ(R->View.Optics.Model, LensModel::Fisheye);
+  EXPECT_EQ(R->View.Optics.Model, &lenses::Fisheye);
   EXPECT_EQ(R->View.Optics.K[0], 0.1);
-  EXPECT_EQ(optionsOf(*R, {}).Optics, LensModel::Fisheye);
+  EXPECT_EQ(optionsOf(*R, {}).Optics, &lenses::Fisheye);
   Asked["camera"]["lens"] = {{"camera_model", "EQUIRECTANGULAR"}};
   const auto Sphere = parseViewRequest(Asked.dump());
   ASSERT_TRUE(Sphere) << Sphere.error().What;

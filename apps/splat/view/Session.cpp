@@ -30,9 +30,7 @@ constexpr std::size_t MostKept = 4;
 
 /// Whether a camera of \p M has a picture without its lens, too: a sphere has
 /// none, and parallel rays have no focal length.
-bool bends(LensModel M) {
-  return M == LensModel::OpenCv || M == LensModel::Fisheye;
-}
+bool bends(const LensModel &M) { return !M.Keys.empty(); }
 
 Json cameraJson(const Camera &C) {
   return {{"name", C.Name},
@@ -45,7 +43,7 @@ Json cameraJson(const Camera &C) {
           {"cx", C.Cx},
           {"cy", C.Cy},
           {"lens", lensJson(C.Optics)},
-          {"lens_is_a_choice", bends(C.Optics.Model)}};
+          {"lens_is_a_choice", bends(*C.Optics.Model)}};
 }
 
 /// Which bands of spherical harmonics are on the device.

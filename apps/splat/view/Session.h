@@ -103,7 +103,7 @@ private:
   GaussianBuffers OnDevice;               ///< activated: no camera changes that
   std::optional<ViewFacts> Facts;         ///< of all views of a scene so far
   uint64_t FactsOf = 0;                   ///< its number
-  LensModel FactsBy = LensModel::Pinhole; ///< of these views
+  const LensModel *FactsBy = &lenses::Pinhole; ///< of these views
   std::deque<std::shared_ptr<const DrawnView>> Kept; ///< newest first
   /// @}
 };

@@ -250,9 +250,8 @@ Expected<Success> Checker::oracle(const HardCase &C, const Setting &S) {
 
 Expected<Success> Checker::all(const HardCase &C) {
   // Of lenses and shutters it has no formulas.
-  if (Plan.Oracle != 0 && C.Options.Optics == splat::LensModel::Pinhole &&
-      !C.Options.Rolling && C.Options.Through == splat::Spread::Jacobian &&
-      !C.Options.Near) {
+  if (Plan.Oracle != 0 && C.Options.Optics->isPinhole() && !C.Options.Rolling &&
+      C.Options.Through == splat::Spread::Jacobian && !C.Options.Near) {
     // Without dilation a footprint is all that its determinant is.
     const auto Sharp = std::ranges::find(knobs(), "--dilation 0", &Knob::Flags);
     for (const Setting &S : {Setting{}, Setting{&*Sharp}})

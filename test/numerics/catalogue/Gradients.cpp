@@ -252,12 +252,12 @@ TrainingCase overBackground() {
 }
 
 /// Each camera with coefficients of its own, in all directions.
-GradientScene sceneOfLens(splat::LensModel M) {
+GradientScene sceneOfLens(const splat::LensModel *M) {
   GradientScene G{{}, lensView(M, someCoefficients(M), 96, 64), {}};
   const splat::Scene All = allAround(140, 81);
   for (uint32_t I = 0; I < All.size(); ++I) {
     const float *P = &All.Means[3 * I];
-    const bool Everywhere = M == splat::LensModel::Equirectangular;
+    const bool Everywhere = M == &splat::lenses::Equirectangular;
     if (Everywhere || (P[2] > 1 && std::hypot(P[0], P[1]) < 0.5 * P[2]))
       append(G.Scene, All, I, 1);
   }
@@ -265,7 +265,7 @@ GradientScene sceneOfLens(splat::LensModel M) {
   return G;
 }
 
-TrainingCase throughLens(splat::LensModel M, std::string Name,
+TrainingCase throughLens(const splat::LensModel *M, std::string Name,
                          std::string Why) {
   return caseOf(std::move(Name), std::move(Why), sceneOfLens(M), {});
 }
@@ -289,7 +289,7 @@ void addShutter(GradientScene &G) {
 }
 
 /// By the Jacobian, whose rows depend on the mean's moment.
-TrainingCase throughShutter(splat::LensModel M, splat::Rules Convention,
+TrainingCase throughShutter(const splat::LensModel *M, splat::Rules Convention,
                             std::string Name, std::string Why) {
   GradientScene G = sceneOfLens(M);
   addWide(G);
@@ -303,8 +303,8 @@ TrainingCase throughShutter(splat::LensModel M, splat::Rules Convention,
 /// As seven points. Of the wide Gaussians the camera does not see some, so that
 /// these go back through the Jacobian, one of them where it is held. With \p
 /// Rolls a shutter rolls.
-TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
-                           std::string Why) {
+TrainingCase throughPoints(const splat::LensModel *M, bool Rolls,
+                           std::string Name, std::string Why) {
   GradientScene G = sceneOfLens(M);
   addWide(G);
   G.Options.Through = splat::Spread::Unscented;
@@ -312,7 +312,7 @@ TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
   if (Rolls)
     addShutter(G);
   std::vector<std::string> FoundIn{"points-forget-their-shift"};
-  if (M == splat::LensModel::Pinhole)
+  if (M == &splat::lenses::Pinhole)
     FoundIn.emplace_back("held-slope-of-no-depth");
   if (Rolls)
     FoundIn.emplace_back("shear-forgotten-behind");
@@ -323,7 +323,7 @@ TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
 /// Thinner than a pixel, so that the shutter's shear of the dilation counts.
 TrainingCase rollingDilation(splat::Spread Through, std::string Name,
                              std::string FoundIn) {
-  GradientScene G{{}, lensView(splat::LensModel::Pinhole, {}, 96, 64), {}};
+  GradientScene G{{}, lensView(&splat::lenses::Pinhole, {}, 96, 64), {}};
   G.View.Optics.Shutter = {0, 0.1, 1, {0.1, 0, 0.2}, {-0.3, 0.3, 0.2}};
   Numbers R(89);
   for (int I = 0; I < 30; ++I)
@@ -348,7 +348,7 @@ TrainingCase rollingDilation(splat::Spread Through, std::string Name,
 /// One of each one's points is just in front of the near plane and far beside
 /// the picture, so that it goes back through the Jacobian, as it came.
 TrainingCase pointsBeside() {
-  GradientScene G = sceneOfLens(splat::LensModel::Pinhole);
+  GradientScene G = sceneOfLens(&splat::lenses::Pinhole);
   Numbers R(87);
   for (const auto &[X, Y, Z] :
        {std::array{2.0F, 0.3F, 1.2F}, {-2.4F, -0.6F, 1.5F}})
@@ -363,7 +363,8 @@ TrainingCase pointsBeside() {
                 std::move(G), {"points-anywhere"});
 }
 
-TrainingCase needlesAt(splat::LensModel M, std::string Name, std::string Why) {
+TrainingCase needlesAt(const splat::LensModel *M, std::string Name,
+                       std::string Why) {
   const splat::Camera View = needleView(M);
   GradientScene G{pointingNeedles(View, 85), View, {}};
   G.Options.Optics = M;
@@ -399,30 +400,30 @@ void addGradients(std::vector<TrainingCase> &Cases) {
   Cases.push_back(reset(/*Antialiased=*/true));
   Cases.push_back(overBackground());
   using splat::LensModel;
-  Cases.push_back(throughLens(LensModel::OpenCv, "gradients-through-opencv",
+  Cases.push_back(throughLens(&lenses::OpenCv, "gradients-through-opencv",
                               "back through all twelve coefficients and the "
                               "Jacobian's own derivative"));
-  Cases.push_back(throughLens(LensModel::Fisheye, "gradients-through-fisheye",
+  Cases.push_back(throughLens(&lenses::Fisheye, "gradients-through-fisheye",
                               "back through the angle's polynomial, where "
                               "differences of nearly equal terms cancel"));
-  Cases.push_back(throughLens(LensModel::Orthographic,
+  Cases.push_back(throughLens(&lenses::Orthographic,
                               "gradients-through-orthographic",
                               "depth moves nothing on the picture"));
   Cases.push_back(throughLens(
-      LensModel::Equirectangular, "gradients-through-equirectangular",
+      &lenses::Equirectangular, "gradients-through-equirectangular",
       "a Gaussian on both sides of the seam has the sum of both gradients"));
-  Cases.push_back(throughPoints(LensModel::Pinhole, /*Rolls=*/false,
+  Cases.push_back(throughPoints(&lenses::Pinhole, /*Rolls=*/false,
                                 "gradients-through-points",
                                 "back through seven points of each, "
                                 "antialiased"));
-  Cases.push_back(throughPoints(LensModel::OpenCv, /*Rolls=*/false,
+  Cases.push_back(throughPoints(&lenses::OpenCv, /*Rolls=*/false,
                                 "gradients-through-points-opencv",
                                 "the same through all coefficients"));
-  Cases.push_back(throughPoints(LensModel::Equirectangular, /*Rolls=*/false,
+  Cases.push_back(throughPoints(&lenses::Equirectangular, /*Rolls=*/false,
                                 "gradients-through-points-equirectangular",
                                 "the same with points on both sides of the "
                                 "seam"));
-  Cases.push_back(throughPoints(LensModel::Fisheye, /*Rolls=*/true,
+  Cases.push_back(throughPoints(&lenses::Fisheye, /*Rolls=*/true,
                                 "gradients-through-points-rolling",
                                 "each point at a moment of its own, which its "
                                 "place moves"));
@@ -434,29 +435,29 @@ void addGradients(std::vector<TrainingCase> &Cases) {
                                   "gradients-of-rolling-dilation-jacobian",
                                   "moment-forgotten-behind"));
   using splat::Rules;
-  Cases.push_back(throughShutter(LensModel::Pinhole, Rules::Inria,
+  Cases.push_back(throughShutter(&lenses::Pinhole, Rules::Inria,
                                  "gradients-through-shutter",
                                  "the rows at a mean's own moment, and the "
                                  "moment, move with the mean; one is held"));
-  Cases.push_back(throughShutter(LensModel::Pinhole, Rules::Gsplat,
+  Cases.push_back(throughShutter(&lenses::Pinhole, Rules::Gsplat,
                                  "gradients-through-shutter-gsplat",
                                  "the same where the limit moves with the "
                                  "mean"));
-  Cases.push_back(throughShutter(LensModel::OpenCv, Rules::Gsplat,
+  Cases.push_back(throughShutter(&lenses::OpenCv, Rules::Gsplat,
                                  "gradients-through-shutter-opencv",
                                  "the same through all coefficients"));
-  Cases.push_back(throughShutter(LensModel::Fisheye, Rules::Inria,
+  Cases.push_back(throughShutter(&lenses::Fisheye, Rules::Inria,
                                  "gradients-through-shutter-fisheye",
                                  "the same through a fisheye"));
-  Cases.push_back(throughShutter(LensModel::Equirectangular, Rules::Inria,
+  Cases.push_back(throughShutter(&lenses::Equirectangular, Rules::Inria,
                                  "gradients-through-shutter-equirectangular",
                                  "the same on a full sphere"));
   Cases.push_back(pointsBeside());
-  Cases.push_back(needlesAt(splat::LensModel::Pinhole,
+  Cases.push_back(needlesAt(&splat::lenses::Pinhole,
                             "gradients-of-needles-ahead",
                             "needles of 1,000 to 6,000 px that point at the "
                             "camera"));
-  Cases.push_back(needlesAt(splat::LensModel::Fisheye,
+  Cases.push_back(needlesAt(&splat::lenses::Fisheye,
                             "gradients-of-needles-at-a-fisheye",
                             "the same at a fisheye"));
   Cases.push_back(smallOn("gradients-through-a-long-lens",

@@ -186,7 +186,7 @@ std::vector<Knob> pathKnobs() {
        "cull-blocks",
        {},
        [](RenderOptions &O) {
-         O.CullBlocks = O.Optics == splat::LensModel::Pinhole && !O.Rolling &&
+         O.CullBlocks = O.Optics->isPinhole() && !O.Rolling &&
                         O.Through == splat::Spread::Jacobian;
        },
        none},

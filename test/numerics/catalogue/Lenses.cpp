@@ -8,26 +8,26 @@ namespace vorion::test {
 
 using splat::LensModel;
 
-splat::Camera lensView(LensModel M, splat::LensCoefficients K, int Width,
+splat::Camera lensView(const LensModel *M, splat::LensCoefficients K, int Width,
                        int Height) {
   splat::Camera C = frontView(Width, Height, 50);
   C.Optics = {M, K};
-  if (M == LensModel::Equirectangular) {
+  if (M == &lenses::Equirectangular) {
     C.Fx = Width / (2 * M_PI);
     C.Fy = Height / M_PI;
-  } else if (M == LensModel::Fisheye) {
+  } else if (M == &lenses::Fisheye) {
     C.Fx = C.Fy = 20;
-  } else if (M == LensModel::Orthographic) {
+  } else if (M == &lenses::Orthographic) {
     C.Fx = C.Fy = 12;
   }
   return C;
 }
 
-splat::LensCoefficients someCoefficients(LensModel M) {
-  if (M == LensModel::OpenCv)
+splat::LensCoefficients someCoefficients(const LensModel *M) {
+  if (M == &lenses::OpenCv)
     return {-0.25, 0.08,  0.004,  -0.006, -0.01, 0.02, 0.03,
             0.01,  0.003, -0.001, 0.002,  0.001, 0.005};
-  if (M == LensModel::Fisheye)
+  if (M == &lenses::Fisheye)
     return {0.06, -0.02, 0.005, -0.0006};
   return {};
 }
@@ -52,10 +52,9 @@ splat::Scene allAround(uint32_t Count, uint32_t Seed, double Scale) {
   return S;
 }
 
-splat::Camera needleView(LensModel M) {
+splat::Camera needleView(const LensModel *M) {
   // Short enough for the means to keep their digits.
-  splat::Camera C =
-      turnedView(frontView(96, 64, M == LensModel::Orthographic ? 40 : 250));
+  splat::Camera C = turnedView(frontView(96, 64, M->IsParallel ? 40 : 250));
   C.Optics = {M, someCoefficients(M)};
   return C;
 }
@@ -63,7 +62,7 @@ splat::Camera needleView(LensModel M) {
 splat::Scene pointingNeedles(const splat::Camera &C, uint32_t Seed) {
   splat::Scene S;
   Numbers R(Seed);
-  const bool IsParallel = C.Optics.Model == LensModel::Orthographic;
+  const bool IsParallel = C.Optics.Model->IsParallel;
   for (int I = 0; I < 60; ++I) {
     const double Z = R.uniform(2, 6), Pixel = (IsParallel ? 1 : Z) / C.Fx;
     const double X = (R.uniform(3, C.Width - 3) - C.Cx) * Pixel;
@@ -124,7 +123,7 @@ HardCase distorted() {
              "all thirteen coefficients; Gaussians all around, half of "
              "them behind the camera",
              allAround(160, 71),
-             lensView(LensModel::OpenCv, someCoefficients(LensModel::OpenCv)));
+             lensView(&lenses::OpenCv, someCoefficients(&lenses::OpenCv)));
   C.ExpectedCulls[3] = 43;
   return C;
 }
@@ -134,7 +133,7 @@ HardCase opencvFold() {
   HardCase C = caseOf("opencv-fold",
                       "means beside the radius at which the polynomial turns "
                       "back, from where it would show them mirrored inside",
-                      {}, lensView(LensModel::OpenCv, {-0.3}, 128, 96));
+                      {}, lensView(&lenses::OpenCv, {-0.3}, 128, 96));
   const double Fold = std::atan(C.View.Optics.limit());
   for (const double Off : {-0.3, -0.1, -1e-3, 1e-3, 0.1, 0.3})
     addAtAngle(C.Scene, Fold + Off, 4 * Off, 2);
@@ -149,7 +148,7 @@ HardCase opencvUnfold() {
   HardCase C = caseOf("opencv-unfold",
                       "means where the polynomial rises again behind its fold, "
                       "and would show a second picture upright",
-                      {}, lensView(LensModel::OpenCv, {-0.5, 0.08}, 128, 96));
+                      {}, lensView(&lenses::OpenCv, {-0.5, 0.08}, 128, 96));
   for (const double Radius : {0.3, 0.7, 0.92, 0.95, 1.7, 1.8, 2.0, 2.2})
     addAtAngle(C.Scene, std::atan(Radius), 2 * Radius, 2);
   C.ExpectedCulls[3] = 5;
@@ -161,7 +160,7 @@ HardCase fisheyeFold() {
   HardCase C = caseOf("fisheye-fold",
                       "means beside the angle at which a fisheye's polynomial "
                       "turns back, which is behind the camera",
-                      {}, lensView(LensModel::Fisheye, {-0.1}, 128, 96));
+                      {}, lensView(&lenses::Fisheye, {-0.1}, 128, 96));
   const double Fold = C.View.Optics.limit();
   for (const double Off : {-0.5, -0.2, -1e-3, 1e-3, 0.2, 0.9})
     addAtAngle(C.Scene, Fold + Off, 5 * Off, 2);
@@ -176,7 +175,7 @@ HardCase fisheyeUnfold() {
   HardCase C = caseOf("fisheye-unfold",
                       "the same of a fisheye's angle: what is behind the "
                       "camera would stand beside what is in front",
-                      {}, lensView(LensModel::Fisheye, {-0.2, 0.015}, 128, 96));
+                      {}, lensView(&lenses::Fisheye, {-0.2, 0.015}, 128, 96));
   for (const double Angle : {0.3, 1.0, 1.5, 1.6, 2.4, 2.6, 2.8, 3.1})
     addAtAngle(C.Scene, Angle, 2 * Angle, 2);
   C.ExpectedCulls[3] = 5;
@@ -189,7 +188,7 @@ HardCase fisheyeAxis() {
       "fisheye-axis",
       "on the axis and 1e-30 to 1e-3 beside it, where angle "
       "over radius is 0 over 0, and straight behind",
-      {}, lensView(LensModel::Fisheye, someCoefficients(LensModel::Fisheye)));
+      {}, lensView(&lenses::Fisheye, someCoefficients(&lenses::Fisheye)));
   Numbers R(72);
   for (const double Off : {0., 1e-30, 1e-20, 1e-10, 1e-6, 1e-4, 1e-3})
     add(C.Scene,
@@ -208,13 +207,13 @@ HardCase fisheyeAround() {
   return caseOf("fisheye-all-around",
                 "Gaussians beside and behind a camera that sees them: z below "
                 "0, depth by distance",
-                allAround(160, 73), lensView(LensModel::Fisheye, {}, 140, 140));
+                allAround(160, 73), lensView(&lenses::Fisheye, {}, 140, 140));
 }
 
 HardCase orthographic() {
   HardCase C = caseOf("orthographic",
                       "parallel rays: what is far is as large as what is near",
-                      allAround(160, 74), lensView(LensModel::Orthographic));
+                      allAround(160, 74), lensView(&lenses::Orthographic));
   C.ExpectedCulls[3] = 27;
   return C;
 }
@@ -223,7 +222,7 @@ HardCase seam() {
   HardCase C = caseOf("equirectangular-seam",
                       "Gaussians behind the camera that cross the seam, one of "
                       "them twice as wide as the picture",
-                      {}, lensView(LensModel::Equirectangular, {}, 96, 48));
+                      {}, lensView(&lenses::Equirectangular, {}, 96, 48));
   Numbers R(75);
   for (const double Angle : {M_PI, -3.1, 3.0, -2.9, 3.14159, 2.2})
     add(C.Scene, {.Mean = {static_cast<float>(2 * std::sin(Angle)),
@@ -240,7 +239,7 @@ HardCase poles() {
   HardCase C = caseOf("equirectangular-poles",
                       "straight up and down and 1e-20 to 0.1 beside it, where "
                       "a longitude is anything",
-                      {}, lensView(LensModel::Equirectangular, {}, 96, 48));
+                      {}, lensView(&lenses::Equirectangular, {}, 96, 48));
   Numbers R(76);
   for (const double Off : {0., 1e-20, 1e-6, 1e-3, 0.1})
     for (const float Up : {-2.0F, 2.0F})
@@ -257,7 +256,7 @@ HardCase sphere() {
   return caseOf("equirectangular-all-around",
                 "Gaussians all around on a full sphere, turned",
                 allAround(200, 77),
-                turnedView(lensView(LensModel::Equirectangular, {}, 120, 60)));
+                turnedView(lensView(&lenses::Equirectangular, {}, 120, 60)));
 }
 
 HardCase hugeCoefficients() {
@@ -266,19 +265,19 @@ HardCase hugeCoefficients() {
                       "k1 of -1e6: the polynomial turns back at r = 5.8e-4, "
                       "and its powers reach 1e24",
                       allAround(40, 78),
-                      lensView(LensModel::OpenCv, {-1e6, 1e6, 0, 0, 1e6}));
+                      lensView(&lenses::OpenCv, {-1e6, 1e6, 0, 0, 1e6}));
   add(C.Scene, {.Mean = {1e-4F, 2e-4F, 2}});
   C.ExpectedCulls[3] = 17;
   return C;
 }
 
 HardCase unscentedWide() {
-  HardCase C = caseOf("unscented-wide",
-                      "Gaussians as wide as they are far through a fisheye as "
-                      "seven points, some of which it does not see",
-                      allAround(60, 79, 1.2),
-                      lensView(LensModel::Fisheye,
-                               someCoefficients(LensModel::Fisheye), 128, 96));
+  HardCase C = caseOf(
+      "unscented-wide",
+      "Gaussians as wide as they are far through a fisheye as "
+      "seven points, some of which it does not see",
+      allAround(60, 79, 1.2),
+      lensView(&lenses::Fisheye, someCoefficients(&lenses::Fisheye), 128, 96));
   C.Options.Through = splat::Spread::Unscented;
   C.ExpectedCulls[3] = 8;
   return C;
@@ -313,13 +312,13 @@ HardCase unscentedBeside() {
 }
 
 /// Half a radian and a third of the way to what it sees in one exposure.
-splat::Camera rollingView(LensModel M) {
+splat::Camera rollingView(const LensModel *M) {
   splat::Camera C = lensView(M, someCoefficients(M), 128, 96);
   C.Optics.Shutter = {-0.1, 0.2, 1, {0.4, -0.5, 0.2}, {0.2, -0.3, 0.4}};
   return C;
 }
 
-HardCase rolling(LensModel M, std::string Name, std::string Why,
+HardCase rolling(const LensModel *M, std::string Name, std::string Why,
                  uint32_t Seed) {
   HardCase C = caseOf(std::move(Name), std::move(Why), allAround(160, Seed),
                       rollingView(M));
@@ -328,7 +327,7 @@ HardCase rolling(LensModel M, std::string Name, std::string Why,
 }
 
 HardCase rollingPinhole() {
-  HardCase C = rolling(LensModel::Pinhole, "rolling-pinhole",
+  HardCase C = rolling(&lenses::Pinhole, "rolling-pinhole",
                        "a shutter that rolls down and across while the camera "
                        "moves and turns; Gaussians all around",
                        81);
@@ -339,7 +338,7 @@ HardCase rollingPinhole() {
 }
 
 HardCase rollingOpenCv() {
-  HardCase C = rolling(LensModel::OpenCv, "rolling-opencv",
+  HardCase C = rolling(&lenses::OpenCv, "rolling-opencv",
                        "the same through all thirteen coefficients", 82);
   C.ExpectedCulls[0] = 94;
   C.ExpectedCulls[3] = 30;
@@ -347,14 +346,14 @@ HardCase rollingOpenCv() {
 }
 
 HardCase rollingFisheye() {
-  HardCase C = rolling(LensModel::Fisheye, "rolling-fisheye",
+  HardCase C = rolling(&lenses::Fisheye, "rolling-fisheye",
                        "the same of what is beside and behind a fisheye", 83);
   C.ExpectedCulls[3] = 28;
   return C;
 }
 
 HardCase rollingUnscented() {
-  HardCase C = rolling(LensModel::Fisheye, "rolling-unscented",
+  HardCase C = rolling(&lenses::Fisheye, "rolling-unscented",
                        "seven points, each at a moment of its own", 84);
   C.Options.Through = splat::Spread::Unscented;
   C.ExpectedCulls[3] = 34;
@@ -437,7 +436,8 @@ HardCase rollingNearPlane() {
   return C;
 }
 
-HardCase pointing(std::string Name, const std::string &Where, LensModel M) {
+HardCase pointing(std::string Name, const std::string &Where,
+                  const LensModel *M) {
   const splat::Camera View = needleView(M);
   HardCase C = caseOf(std::move(Name),
                       "needles of 1,000 to 6,000 px that point at the camera" +
@@ -450,11 +450,11 @@ HardCase pointing(std::string Name, const std::string &Where, LensModel M) {
 }
 
 HardCase unscentedNeedle() {
-  HardCase C = caseOf(
-      "unscented-needles",
-      "needles as seven points through OpenCV's model: the "
-      "determinant is a sum of 21 squares",
-      {}, lensView(LensModel::OpenCv, someCoefficients(LensModel::OpenCv)));
+  HardCase C =
+      caseOf("unscented-needles",
+             "needles as seven points through OpenCV's model: the "
+             "determinant is a sum of 21 squares",
+             {}, lensView(&lenses::OpenCv, someCoefficients(&lenses::OpenCv)));
   Numbers R(80);
   for (int I = 0; I < 12; ++I)
     add(C.Scene, {.Mean = {static_cast<float>(R.uniform(-0.6, 0.6)),
@@ -495,13 +495,13 @@ void addLenses(std::vector<HardCase> &Cases) {
         rollingBeside,   rollingDilation,  rollingNearPlane,
         ownNearPlane})
     Cases.push_back(Make());
-  Cases.push_back(pointing("needles-at-the-camera", "", LensModel::Pinhole));
+  Cases.push_back(pointing("needles-at-the-camera", "", &lenses::Pinhole));
   Cases.push_back(pointing("needles-at-opencv", " with OpenCV's distortion",
-                           LensModel::OpenCv));
+                           &lenses::OpenCv));
   Cases.push_back(
-      pointing("needles-at-a-fisheye", ", a fisheye", LensModel::Fisheye));
+      pointing("needles-at-a-fisheye", ", a fisheye", &lenses::Fisheye));
   Cases.push_back(pointing("needles-along-parallel-rays",
-                           ", with parallel rays", LensModel::Orthographic));
+                           ", with parallel rays", &lenses::Orthographic));
 }
 
 } // namespace vorion::test

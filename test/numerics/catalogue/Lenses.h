@@ -7,14 +7,15 @@ namespace vorion::test {
 
 /// The front view of \p Width by \p Height through a lens of a focal length of
 /// 50 px.
-splat::Camera lensView(splat::LensModel M, splat::LensCoefficients K = {},
-                       int Width = 64, int Height = 48);
+splat::Camera lensView(const splat::LensModel *M,
+                       splat::LensCoefficients K = {}, int Width = 64,
+                       int Height = 48);
 
 /// Coefficients of both signs in every place that the model has.
-splat::LensCoefficients someCoefficients(splat::LensModel M);
+splat::LensCoefficients someCoefficients(const splat::LensModel *M);
 
 /// A turned camera for \c pointingNeedles.
-splat::Camera needleView(splat::LensModel M);
+splat::Camera needleView(const splat::LensModel *M);
 
 /// Needles as long as 1,000 to 6,000 px, of which the picture of \p C has half
 /// a pixel to three, because they point at the camera.

@@ -28,9 +28,9 @@ struct Sight {
 
 Sight sightAt(const splat::Camera &C, double Column, double Row, double Depth) {
   const double A = (Column - C.Cx) / C.Fx, B = (Row - C.Cy) / C.Fy;
-  if (C.Optics.Model == LensModel::Orthographic)
+  if (C.Optics.Model->IsParallel)
     return {{A, B, Depth}, 1 / C.Fx};
-  if (C.Optics.Model == LensModel::Equirectangular)
+  if (C.Optics.Model->CoversSphere)
     return {{Depth * std::sin(A) * std::cos(B), Depth * std::sin(B),
              Depth * std::cos(A) * std::cos(B)},
             Depth / C.Fx};
@@ -66,10 +66,10 @@ HardCase crop(std::string Name, const std::string &What,
 }
 
 /// Lenses that bend at 11,000 px, with every term of theirs.
-const CameraModel Bending{LensModel::OpenCv,
+const CameraModel Bending{&lenses::OpenCv,
                           {-0.06, 0.01, 0.002, -0.001, -0.0007, 0.02, 0.003,
                            0.0002, 0.003, -0.0005, -0.002, 0.0004, 0.00001}};
-const CameraModel BendingFisheye{LensModel::Fisheye,
+const CameraModel BendingFisheye{&lenses::Fisheye,
                                  {-0.02, 0.004, -0.0006, 0.00002}};
 
 /// From 80 units away.
@@ -81,7 +81,7 @@ splat::Camera farView(double Focal, const CameraModel &Optics) {
 }
 
 splat::Camera sphereView() {
-  splat::Camera C = viewOf(16384, 48, 1, {LensModel::Equirectangular});
+  splat::Camera C = viewOf(16384, 48, 1, {&lenses::Equirectangular});
   C.Fx = C.Width / (2 * M_PI);
   C.Fy = C.Height / M_PI;
   return C;
@@ -129,7 +129,7 @@ void addPlaces(std::vector<HardCase> &Cases) {
                        ", 75 degrees from a fisheye's axis", BendingFisheye,
                        {"crop-by-plain-bend"}));
   Cases.push_back(crop("crop-of-parallel-rays", ", of parallel rays",
-                       {LensModel::Orthographic}, {"crop-by-plain-start"}));
+                       {&lenses::Orthographic}, {"crop-by-plain-start"}));
 
   Cases.push_back(caseOf("long-lens",
                          "a focal length of 400,000 px: of a place, the sum "
@@ -143,7 +143,7 @@ void addPlaces(std::vector<HardCase> &Cases) {
                          farView(1e5, BendingFisheye), {"crop-by-plain-axes"}));
   Cases.push_back(caseOf(
       "long-parallel-rays", "parallel rays of 20,000 px a unit, 80 units away",
-      farView(2e4, {LensModel::Orthographic}), {"crop-by-plain-axes"}));
+      farView(2e4, {&lenses::Orthographic}), {"crop-by-plain-axes"}));
 
   Cases.push_back(caseOf("wide-picture",
                          "16,384 px wide, the principal point beside its "
@@ -156,7 +156,7 @@ void addPlaces(std::vector<HardCase> &Cases) {
       "wide-picture-fisheye", "16,384 px wide, through a fisheye",
       viewOf(16384, 16, 9000, BendingFisheye), {"windows-by-plain-places"}));
   Cases.push_back(caseOf("wide-parallel-rays", "16,384 px wide, parallel rays",
-                         viewOf(16384, 16, 9000, {LensModel::Orthographic}),
+                         viewOf(16384, 16, 9000, {&lenses::Orthographic}),
                          {"windows-by-plain-places"}));
   Cases.push_back(caseOf("wide-sphere", "a full sphere 16,384 px around",
                          sphereView(), {"windows-by-plain-places"}));

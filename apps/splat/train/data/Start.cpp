@@ -41,7 +41,7 @@ void placeAtPoints(Scene &S, const CapturePoints &P) {
 std::size_t viewsOfRandomPoints(const Capture &C) {
   return static_cast<std::size_t>(
       std::ranges::count_if(C.Views, [](const CaptureView &V) {
-        if (V.Optics.Model == LensModel::Equirectangular)
+        if (V.Optics.Model->CoversSphere)
           return true;
         // Where the origin lies in the camera's axes.
         const auto At = V.Pose.worldToCameraTranslation();

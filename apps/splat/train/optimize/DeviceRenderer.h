@@ -29,7 +29,7 @@ public:
     bool Antialiased = false; ///< scene/Drawing.h
     /// \name The cameras
     /// @{
-    LensModel Optics = LensModel::Pinhole;
+    const LensModel *Optics = &lenses::Pinhole;
     bool Rolling = false;
     Spread Through = Spread::Jacobian;
     ViewFacts Facts{}; ///< those that need no scene

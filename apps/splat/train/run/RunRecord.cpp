@@ -33,7 +33,7 @@ std::string hashOf(const TrainingSet &Set) {
       for (const auto &Row : C.Rotation)
         Add(Row.data(), 3);
       if (const CameraModel &M = C.Optics; M != CameraModel()) {
-        All += name(M.Model);
+        All += M.Model->Name;
         Add(M.K.data(), M.K.size());
         if (const auto &S = M.Shutter) {
           for (const double D : {S->Start, S->Across, S->Down})
