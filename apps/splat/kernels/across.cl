@@ -10,8 +10,8 @@
 
 #include "activate.cl"
 #include "covariance.cl"
-#include "has_lens.h"
 #include "layout.h"
+#include "lens_model.cl"
 
 static float2 product2(float a, float b) {
   const float high = a * b;
@@ -29,7 +29,7 @@ typedef struct {
 
 // From the camera to the mean, or where parallel rays go.
 static vector2 ray_to(VIEW_SPACE const splat_view *view, float3 mean) {
-#if USE_ORTHOGRAPHIC
+#if LENS_IS_PARALLEL
   return (vector2){(float2)(view->depth_axis[0], view->depth_axis_low[0]),
                    (float2)(view->depth_axis[1], view->depth_axis_low[1]),
                    (float2)(view->depth_axis[2], view->depth_axis_low[2])};

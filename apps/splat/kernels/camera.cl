@@ -2,7 +2,7 @@
 // points that stand for a Gaussian.
 #pragma once
 
-#include "has_lens.h"
+#include "lens_model.cl"
 #if HAS_LENS
 #include "lens.cl"
 #if USE_ROLLING_SHUTTER

@@ -22,7 +22,7 @@ static float camera_depth(__local const splat_view *view, float x, float y,
 }
 
 // Distance from the camera, rounded once as the depth along an axis is: what
-// orders them where a lens says LENS_BY_DISTANCE.
+// orders them where the model says LENS_BY_DISTANCE.
 static float camera_distance(__local const splat_view *view, float3 p) {
   const float part[3] = {p.x, p.y, p.z};
   float2 sum = (float2)(0.0f, 0.0f);

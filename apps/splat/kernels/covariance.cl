@@ -93,6 +93,12 @@ typedef struct {
   float3 x, y;
 } lens_rows;
 
+// The radial part of a pinhole's distortion: the place over (a, b), which are x/z
+// and y/z, and its derivatives by q = a^2 + b^2.
+typedef struct {
+  float value, slope, curve;
+} lens_radial;
+
 // Covariance on the picture from the rows b and c of B, the Jacobian times the
 // Gaussian's axes. The determinant of B B^T + h I is taken as the sum of B's
 // squared minors and h tr + h^2 (Cauchy-Binet): the difference xx yy - xy^2

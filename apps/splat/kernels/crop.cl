@@ -1,14 +1,11 @@
 // Where fp32 has too few digits for places from the axis (effects/Crop.cpp,
 // effects/Windows.cpp): how far beside the ray through the picture's or a
-// window's middle a point is, rounded once. The model's own file (crop_*.cl) has
-//
-//     crop_mean   the place in pixels of a point that is so far beside the ray,
-//                 from differences to the ray's own place alone
+// window's middle a point is, rounded once. The camera's model makes a place of
+// it (lens_model.cl).
 #pragma once
 
 #include "activate.cl"
 #include "covariance.cl"
-#include "has_lens.h"
 #include "layout.h"
 
 // Where a kernel keeps the ray.
@@ -40,15 +37,3 @@ static float divided_difference(float4 k, float q, float q0) {
   const float sum = q + q0, squares = q * q + q0 * q0;
   return k.x + k.y * sum + k.z * (squares + q * q0) + k.w * sum * squares;
 }
-
-#if USE_OPENCV
-#include "crop_opencv.cl"
-#elif USE_FISHEYE
-#include "crop_fisheye.cl"
-#elif USE_ORTHOGRAPHIC
-#include "crop_orthographic.cl"
-#elif USE_EQUIRECTANGULAR
-#include "crop_equirectangular.cl"
-#else
-#include "crop_pinhole.cl"
-#endif

@@ -36,9 +36,9 @@ typedef struct {
 
 /// What a camera that is no pinhole has beside that; it lies behind the view.
 typedef struct {
-  float k[13]; ///< of LensCoefficient, or a fisheye's k1 to k4
-  /// What is not below it is not seen: OpenCV's r^2, a fisheye's angle; or the
-  /// least cosine of a latitude at which the Jacobian is taken.
+  float k[13]; ///< in the order of the model's record (lens/)
+  /// What is not below it is not seen: a distortion's r^2, a fisheye's angle; or
+  /// the least cosine of a latitude at which the Jacobian is taken.
   float limit;
   /// Of the unscented transform: the square of how far a point's place may be
   /// from the mean's, in units of the focal lengths.
@@ -63,7 +63,7 @@ typedef struct {
   float start[2];         ///< of parallel rays: how far that ray passes beside
   float start_low[2];     ///< the axis, as high + low; else 0
   float place[2];         ///< of that ray, px from the picture or the window
-  float ray[5];           ///< what the model has to know of it (crop_*.cl)
+  float ray[5];           ///< what the model has to know of it (crop_mean)
 } splat_crop;
 
 /// The windows of a wide picture, each of which has its own records (window.h).

@@ -2,19 +2,9 @@
 // tangential and of a thin prism. Depth is z.
 #pragma once
 
-// Points outside the field of view are held at its limits
-// (effects/FieldOfView.cpp).
-#pragma vorion choice effect USE_FIELD_OF_VIEW
-
 #include "covariance.cl"
+#include "crop.cl"
 #include "layout.h"
-
-#define LENS_HOLDS (USE_FIELD_OF_VIEW != 0)
-
-// The ratio and its derivatives by q = r^2.
-typedef struct {
-  float value, slope, curve;
-} lens_radial;
 
 static lens_radial lens_radial_at(VIEW_SPACE const splat_lens *lens, float q) {
   VIEW_SPACE const float *k = lens->k;
@@ -46,16 +36,6 @@ static bool lens_at(VIEW_SPACE const splat_lens *lens, float3 p, float2 *at) {
   return p.z > 0.0f && q < lens->limit;
 }
 
-// x/z and y/z where the Jacobian is taken: within the limits of the rules.
-static float2 lens_held(VIEW_SPACE const splat_view *view, float2 ratio,
-                        bool hold) {
-  if (hold)
-    return (float2)(
-        clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
-        clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
-  return ratio;
-}
-
 // The derivatives of the place by a and b, in the rows' first two members.
 static lens_rows lens_slopes(VIEW_SPACE const splat_lens *lens, float a, float b,
                              lens_radial r, float q) {
@@ -74,40 +54,7 @@ static lens_rows lens_slopes(VIEW_SPACE const splat_lens *lens, float a, float b
   return s;
 }
 
-static bool lens_is_held(VIEW_SPACE const splat_view *view,
-                         VIEW_SPACE const splat_lens *lens, float3 p,
-                         bool hold) {
-  const float2 own = (float2)(p.x / p.z, p.y / p.z);
-  return any(lens_held(view, own, hold) != own);
-}
-
-static lens_rows lens_jacobian(VIEW_SPACE const splat_view *view,
-                               VIEW_SPACE const splat_lens *lens, float3 p,
-                               bool hold) {
-  const float2 c = lens_held(view, (float2)(p.x / p.z, p.y / p.z), hold);
-  const float q = c.x * c.x + c.y * c.y;
-  lens_rows s = lens_slopes(lens, c.x, c.y, lens_radial_at(lens, q), q);
-  s.x.z = -(s.x.x * c.x + s.x.y * c.y);
-  s.y.z = -(s.y.x * c.x + s.y.y * c.y);
-  s.x /= p.z;
-  s.y /= p.z;
-  return s;
-}
-
-// One row's part of the derivatives by a, b and z; `second` are its second
-// derivatives aa, ab, bb, `slope` its first ones.
-static float3 lens_row_curvature(float3 second, float3 slope, float3 by,
-                                 float a, float b) {
-  const float by_a =
-      by.x * second.x + by.y * second.y -
-      by.z * (second.x * a + second.y * b + slope.x);
-  const float by_b =
-      by.x * second.y + by.y * second.z -
-      by.z * (second.y * a + second.z * b + slope.y);
-  const float row = by.x * slope.x + by.y * slope.y -
-                    by.z * (slope.x * a + slope.y * b);
-  return (float3)(by_a, by_b, -row);
-}
+#include "lens_distorted.cl"
 
 static float3 lens_curvature(VIEW_SPACE const splat_view *view,
                              VIEW_SPACE const splat_lens *lens, float3 p,
@@ -138,4 +85,38 @@ static float3 lens_curvature(VIEW_SPACE const splat_view *view,
   const float by_a = a == ratio.x ? d.x / p.z : 0.0f;
   const float by_b = b == ratio.y ? d.y / p.z : 0.0f;
   return (float3)(by_a, by_b, d.z / p.z - by_a * ratio.x - by_b * ratio.y);
+}
+
+// `beside` is x and y less those of the ray at depth z. `ray` has the ray's x/z
+// and y/z, a0 and b0: with a = a0 + da the place's terms less the ray's are
+// multiples of da and db, so that nothing cancels.
+static float2 crop_mean(VIEW_SPACE const splat_view *view,
+                        VIEW_SPACE const splat_lens *lens,
+                        CROP_SPACE const splat_crop *crop, float2 beside,
+                        float3 p) {
+  VIEW_SPACE const float *k = lens->k;
+  const float a0 = crop->ray[0], b0 = crop->ray[1];
+  const float da = beside.x / p.z, db = beside.y / p.z;
+  const float a = a0 + da, b = b0 + db;
+  const float q0 = a0 * a0 + b0 * b0, q = a * a + b * b;
+  const float dq = da * (a0 + a) + db * (b0 + b);
+  // The radial part is over / under.
+  const float under = 1.0f + q * (k[5] + q * (k[6] + q * k[7]));
+  const float radial0 = lens_radial_at(lens, q0).value;
+  const float dover =
+      divided_difference((float4)(k[0], k[1], k[4], k[12]), q, q0);
+  const float dunder =
+      divided_difference((float4)(k[5], k[6], k[7], 0.0f), q, q0);
+  const float dradial = dq * (dover - radial0 * dunder) / under;
+  const float radial = radial0 + dradial;
+  const float both = 2.0f * (da * b + a0 * db);
+  const float prism = q + q0;
+  const float x = da * radial + a0 * dradial + k[2] * both +
+                  k[3] * (dq + 2.0f * da * (a0 + a)) +
+                  dq * (k[8] + prism * k[9]);
+  const float y = db * radial + b0 * dradial +
+                  k[2] * (dq + 2.0f * db * (b0 + b)) + k[3] * both +
+                  dq * (k[10] + prism * k[11]);
+  return (float2)(view->focal[0] * x + crop->place[0],
+                  view->focal[1] * y + crop->place[1]);
 }

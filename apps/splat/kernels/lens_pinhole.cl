@@ -6,8 +6,10 @@
 #pragma vorion choice effect USE_FIELD_OF_VIEW
 
 #include "covariance.cl"
+#include "crop.cl"
 #include "layout.h"
 
+#define LENS_IS_PINHOLE 1
 #define LENS_HOLDS (USE_FIELD_OF_VIEW != 0)
 
 static bool lens_at(VIEW_SPACE const splat_lens *lens, float3 p, float2 *at) {
@@ -47,3 +49,11 @@ static float3 lens_curvature(VIEW_SPACE const splat_view *view,
          (p.z * p.z);
 }
 #endif
+
+// `beside` is x and y less those of the ray at depth z.
+static float2 crop_mean(VIEW_SPACE const splat_view *view,
+                        CROP_SPACE const splat_crop *crop, float2 beside,
+                        float z) {
+  return (float2)(view->focal[0] * beside.x / z + crop->place[0],
+                  view->focal[1] * beside.y / z + crop->place[1]);
+}

@@ -31,10 +31,7 @@
 #if USE_NEEDLES
 #include "across.cl"
 #endif
-#if USE_CROP
-#include "crop.cl"
-#endif
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
 #include "project_copies.cl"
 #endif
 
@@ -59,7 +56,7 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   const float pz = GEOMETRY(PLANE_MEAN + 2);
   __local const splat_view *view = &c->view;
   __local const float *w = view->rotation;
-#ifdef LENS_BY_DISTANCE
+#if LENS_BY_DISTANCE
   const float z = camera_distance(view, (float3)(px, py, pz));
 #else
   const float z = camera_depth(view, px, py, pz);
@@ -96,7 +93,7 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   const float x = w[0] * d.x + w[1] * d.y + w[2] * d.z;
   const float y = w[3] * d.x + w[4] * d.y + w[5] * d.z;
 #if HAS_LENS
-#ifdef LENS_BY_DISTANCE
+#if LENS_BY_DISTANCE
   const float3 p = (float3)(x, y, w[6] * d.x + w[7] * d.y + w[8] * d.z);
 #else
   const float3 p = (float3)(x, y, z);
@@ -202,7 +199,7 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   float2 extent;
   if (!support_extent(s, opacity, effects, &extent))
     return CULLED + CULL_FAINT;
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
   c->reach[lane] = extent.x;
 #endif
   uint x0, x1, y0, y1;
@@ -325,7 +322,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
     __global const float *own_geometry = geometry;
     __global const float *own_sh = sh;
 #endif
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
     uint own_key = CULLED + CULL_OUTSIDE;
     uint2 own_rectangle = (uint2)(0, 0);
 #endif
@@ -347,7 +344,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
       }
       w->rectangles[i] = rectangle.x;
       w->rectangles[RECTANGLES(count) + i] = rectangle.y;
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
       own_key = key;
       own_rectangle = rectangle;
 #endif
@@ -364,7 +361,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
         w->records[first * RECORD_WORDS + k * LANES + lane] = words[k];
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
     // Numbers of copies begin at whole lines; those of nobody are culled.
     const uint whole = WHOLE_LINES(count);
     if (i >= count)

@@ -39,7 +39,7 @@
 #endif
 
 #define GRADIENT(plane) gradients[(plane) * count + i]
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
 // A Gaussian and its copies beyond the picture's sides (project_copies.cl), of
 // which those that no tile sees have no sums.
 static float sum_of_copies(__global const float *sums,
@@ -238,7 +238,7 @@ static void project_backward_one(__constant const splat_view *view,
   camera_gaussian g;
   g.place.x = r[0] * d.x + r[1] * d.y + r[2] * d.z;
   g.place.y = r[3] * d.x + r[4] * d.y + r[5] * d.z;
-#ifdef LENS_BY_DISTANCE
+#if LENS_BY_DISTANCE
   g.place.z = r[6] * d.x + r[7] * d.y + r[8] * d.z;
 #else
   g.place.z = z;

@@ -15,8 +15,8 @@
 // Pictures far from the axis (effects/Crop.cpp).
 #pragma vorion choice effect USE_CROP
 
-#include "has_lens.h"
 #include "layout.h"
+#include "lens_model.cl"
 
 // Work-items of a group.
 #ifndef LANES
@@ -51,7 +51,7 @@
 #define WHOLE_LINES(count)                                                     \
   (((count) + LINE_WORDS - 1) / LINE_WORDS * LINE_WORDS)
 // Rectangles of `count` Gaussians.
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
 #define RECTANGLES(count) (3 * WHOLE_LINES(count))
 #else
 #define RECTANGLES(count) (count)
@@ -93,7 +93,7 @@ typedef struct {
 #if USE_CROP
   splat_crop crop;
 #endif
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
   float reach[LANES]; // extents before pixel_extent, along x
 #endif
 } workspace;

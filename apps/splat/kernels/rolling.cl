@@ -43,7 +43,7 @@ static float rolling_by(VIEW_SPACE const splat_shutter *shutter, float2 step) {
 
 // What the near plane is compared with.
 static float rolling_depth(const rolling_point *r) {
-#ifdef LENS_BY_DISTANCE
+#if LENS_BY_DISTANCE
   return sqrt(dot_in_order(r->p, r->p));
 #else
   return r->p.z;

@@ -14,8 +14,7 @@
 #define UNSCENTED_WEIGHT 0.40824829f // root of 1/6
 
 // Whether each point must be in front of the near plane.
-#define HAS_NEAR_PLANE                                                         \
-  (!USE_FISHEYE && !USE_ORTHOGRAPHIC && !USE_EQUIRECTANGULAR)
+#define HAS_NEAR_PLANE (!LENS_BY_DISTANCE && !LENS_IS_PARALLEL)
 
 // A point as the camera sees it, by what its derivative needs.
 typedef struct {

@@ -50,14 +50,14 @@ __kernel void records_of_windows(
   const float3 p =
       (float3)(r[0] * d.x + r[1] * d.y + r[2] * d.z,
                r[3] * d.x + r[4] * d.y + r[5] * d.z,
-#ifdef LENS_BY_DISTANCE
+#if LENS_BY_DISTANCE
                r[6] * d.x + r[7] * d.y + r[8] * d.z);
 #else
                depth);
 #endif
 #endif
   splat_gaussian g = records[at];
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
   const float own = g.mean[0], width = (float)view->size[0];
 #endif
   const uint2 rectangle = (uint2)(rectangles[at], rectangles[drawn + at]);
@@ -78,7 +78,7 @@ __kernel void records_of_windows(
 #else
       float2 place = crop_mean(view, crop, beside, depth);
 #endif
-#if USE_EQUIRECTANGULAR
+#if LENS_CLOSES
       // The copy's own, of those that are a picture's width apart.
       place.x += width * rint((own - (float)(x << windows.bits) - place.x) /
                               width);

@@ -91,11 +91,11 @@ const std::vector<BrokenKernel> &brokenKernels() {
        {{"crop.cl", "-crop->start_low[axis])", "0.0f)"}}},
       {"crop-by-plain-squares",
        {},
-       {{"crop_opencv.cl", "const float dq = da * (a0 + a) + db * (b0 + b);",
+       {{"lens_opencv.cl", "const float dq = da * (a0 + a) + db * (b0 + b);",
          "const float dq = q - q0;"}}},
       {"crop-by-plain-bend",
        {},
-       {{"crop_fisheye.cl",
+       {{"lens_fisheye.cl",
          "along > 0.0f ? across * across / (radius + along)\n"
          "                                  : radius - along",
          "radius - along"}}},
