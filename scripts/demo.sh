@@ -6,7 +6,7 @@ source "$(dirname "$0")/lib.sh"
 showHelp "$@"
 [ $# -eq 0 ] || fail "unknown argument $1, expected none"
 
-"$Root/scripts/setup.sh"
+"$Root/scripts/setup.sh" --demo
 source "$Root/scripts/env.sh"
 Out="$Root/build/demo"
 mkdir -p "$Out"

@@ -2,11 +2,18 @@
 # Makes a fresh machine with Debian 12 or 13 ready: packages, sources, build. Every step
 # is skipped when its result is there, so a second run is quick, needs no
 # network, and goes on where a broken one stopped.
-# usage: scripts/setup.sh [--tests]   (--tests: also the tests, and the packages that only they need)
+# usage: scripts/setup.sh [--demo | --tests]
+# --demo: of the tools only those that draw and train scenes
+# --tests: also the tests, and the packages that only they need
 source "$(dirname "$0")/lib.sh"
 showHelp "$@"
-Tests=${1:-}
-case "$Tests" in "" | --tests) ;; *) fail "unknown option $Tests, expected --tests" ;; esac
+Tests='' Target=vorion_installed Built='built'
+case "${1:-}" in
+"") ;;
+--demo) Target=vorion_demo Built='built what draws scenes; "scripts/setup.sh" builds the other tools' ;;
+--tests) Tests=yes Target=all ;;
+*) fail "unknown option $1, expected --demo or --tests" ;;
+esac
 
 readJobs
 
@@ -66,7 +73,5 @@ step "fetching and patching LLVM's RISC-V target" source-llvm "$Root/scripts/fet
 [ -z "$Tests" ] || step "unpacking LLVM's own RISC-V tests" source-llvm-tests "$Root/scripts/fetch-source.sh" llvm-tests
 step "fetching and patching PoCL" source-pocl "$Root/scripts/fetch-source.sh" pocl
 step "configuring" configure cmake --preset dev -S "$Root"
-Target=vorion_installed
-[ -z "$Tests" ] || Target=all
 NINJA_STATUS='[%p] ' step "building (the first time several minutes)" build cmake --build "$Build" -j "$Jobs" --target "$Target"
-printf '[%s] built; ". scripts/env.sh" puts the tools on the path, and docs/tutorials/README.md shows their use\n' "$(elapsed)"
+printf '[%s] %s; ". scripts/env.sh" puts the tools on the path, and docs/tutorials/README.md shows their use\n' "$(elapsed)" "$Built"
