@@ -11,6 +11,8 @@
 // With N = 0 and KIND = alloc the log has a line "place N" for each allocation
 // of a place that had none before: callers' addresses decide what a place is.
 
+#include "vorion/support/Hash.h"
+
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -107,10 +109,10 @@ void printPlace() {
 bool isNewPlace() {
   static std::array<std::atomic<uint64_t>, 1 << 16> Seen;
   const Callers C = callers();
-  uint64_t Hash = 14695981039346656037U;
-  for (std::size_t I = 0; I < C.Count; ++I)
-    Hash = (Hash ^ reinterpret_cast<uintptr_t>(C.At[I])) * 1099511628211U;
-  Hash |= 1;
+  const uint64_t Hash =
+      vorion::fnv1a({reinterpret_cast<const char *>(C.At.data()),
+                     C.Count * sizeof(C.At[0])}) |
+      1;
   for (std::size_t I = 0, At = Hash % Seen.size(); I < Seen.size(); ++I) {
     uint64_t Free = 0;
     if (Seen[At].compare_exchange_strong(Free, Hash))

@@ -37,7 +37,11 @@ pocl_checked_file_status pocl_read_checked_file(const char *path,
  * errno. */
 int pocl_write_all(int fd, const char *content, uint64_t size);
 
-/* The checksum of bytes, which any change of a single byte changes. */
+/* The function of the checksums, for the keys of entries that builds with other
+ * ones would find. */
+#define POCL_CHECKSUM "XXH3"
+
+/* The checksum of bytes. */
 uint64_t pocl_checksum(const void *bytes, uint64_t size);
 
 /* Keeps a sentence's beginning that says why the cache is of no use, unless

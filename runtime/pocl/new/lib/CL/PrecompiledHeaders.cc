@@ -99,7 +99,7 @@ std::string hashOf(StringRef Text) {
 /// program asks for the key.
 std::string keyOf(const CompilerInvocation &Parse,
                   const std::vector<std::string> &Headers) {
-  std::string All = getClangFullVersion();
+  std::string All = POCL_CHECKSUM + getClangFullVersion();
   for (const std::string &Option : Parse.getCC1CommandLine())
     All += Option + '\0';
   for (const std::string &Header : Headers) {

@@ -12,6 +12,8 @@
 #include <unistd.h>
 
 #include <CL/cl_vorion.h>
+#define XXH_INLINE_ALL /* the header alone: no library to link */
+#include <xxhash.h>
 
 #include "pocl_cache.h"
 #include "pocl_cache_folders.h"
@@ -21,24 +23,8 @@
 
 static _Thread_local char problem[1024];
 
-/* Words, since the largest file has 3 MB. Each step is one to one, so that no
- * change of a single word goes unnoticed. */
-static uint64_t add_bytes(uint64_t hash, const void *bytes, uint64_t size) {
-  const unsigned char *at = bytes;
-  for (; size >= sizeof(uint64_t); size -= sizeof(uint64_t)) {
-    uint64_t word;
-    memcpy(&word, at, sizeof(word));
-    at += sizeof(word);
-    hash = (hash ^ word) * 0x9e3779b97f4a7c15; /* odd */
-    hash ^= hash >> 32;
-  }
-  for (; size > 0; --size)
-    hash = (hash ^ *at++) * 0x100000001b3;
-  return hash;
-}
-
 uint64_t pocl_checksum(const void *bytes, uint64_t size) {
-  return add_bytes(0xcbf29ce484222325, bytes, size);
+  return XXH3_64bits(bytes, size);
 }
 
 /* The checksum of a file, which knows its place in the cache: a whole file of
@@ -46,7 +32,7 @@ uint64_t pocl_checksum(const void *bytes, uint64_t size) {
 static uint64_t file_checksum(const char *path, const void *bytes,
                               uint64_t size) {
   const char *place = pocl_cache_place(path);
-  return add_bytes(pocl_checksum(place, strlen(place)), bytes, size);
+  return XXH3_64bits_withSeed(bytes, size, pocl_checksum(place, strlen(place)));
 }
 
 /* write(), which fails with EFBIG where a file would grow beyond the limit of

@@ -4,6 +4,7 @@
 #include "FileState.h"
 #include "ToolServer.h"
 #include "vorion/support/Environment.h"
+#include "vorion/support/Hash.h"
 
 extern "C" {
 #include "config.h"
@@ -11,7 +12,6 @@ extern "C" {
 }
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <dlfcn.h>
 #include <filesystem>
@@ -109,17 +109,10 @@ std::string Tools::fingerprint() const {
       Files.push_back(Entry.path());
   std::sort(Files.begin(), Files.end());
 
-  // FNV-1a over names and states.
-  uint64_t Hash = 0xcbf29ce484222325;
-  const auto Mix = [&Hash](const std::string &Text) {
-    for (const unsigned char C : Text)
-      Hash = (Hash ^ C) * 0x100000001b3;
-  };
-  for (const fs::path &File : Files) {
-    Mix(File.filename().string());
-    Mix(stateOf(File));
-  }
-  return std::to_string(Hash);
+  std::string All;
+  for (const fs::path &File : Files)
+    All += File.filename().string() + stateOf(File);
+  return std::to_string(fnv1a(All));
 }
 
 std::string Tools::run(std::vector<std::string> Arguments) const {
