@@ -24,9 +24,6 @@ public:
   /// For a new run of \p Program; its words are looked for here.
   void reset(const Image &Program);
 
-  /// Whether the program has the words.
-  bool isPresent() const { return ToHost.has_value(); }
-
   /// Looks whether the program asks for something; called where all cores are
   /// parked. True if it does, which a program may wait for in a loop.
   bool poll();
