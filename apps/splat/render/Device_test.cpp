@@ -2,6 +2,7 @@
 
 #include "device/Kernels.h"
 #include "device/OnDevice.h"
+#include "kernels/adam.cl.h"
 #include "kernels/merge.cl.h"
 #include "kernels/scan.cl.h"
 #include "kernels/sort.cl.h"
@@ -274,6 +275,34 @@ TEST_F(OnDevice, MergeIsTheSumOfItsParts) {
       Worst = std::max(Worst, std::abs(Out[I] - Want[I]));
     EXPECT_LE(Worst, 8e-7) << Parts;
   }
+}
+
+// It does not run with an argument too few or too many.
+TEST_F(OnDevice, AnArgumentByChoiceGoesWithItsChoice) {
+  for (const bool ByPlane : {false, true})
+    for (const bool Given : {false, true}) {
+      Launcher L(*Dev, "", {});
+      L.beginStage(Stage::Adam);
+      L.build(kernels::adam::Program{.MOMENTS_BY_PLANE = ByPlane});
+      const cl::Buffer Values = upload(L, std::vector<float>(16));
+      L.run(16, 16,
+            kernels::adam::adam{.parameters = Values,
+                                .gradients = Values,
+                                .first = Values,
+                                .second = Values,
+                                .rates = Values,
+                                .count = 16U,
+                                .beta1 = 0.9F,
+                                .rest1 = 0.1F,
+                                .beta2 = 0.9F,
+                                .rest2 = 0.1F,
+                                .correction = 1.0F,
+                                .epsilon = 1.0F,
+                                .own_plane =
+                                    Given ? std::optional(0U) : std::nullopt});
+      EXPECT_EQ(L.failure().has_value(), ByPlane != Given)
+          << ByPlane << Given << L.buildLog();
+    }
 }
 
 TEST_F(OnDevice, TilesAreOrderedByListLength) {
