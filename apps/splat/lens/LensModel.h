@@ -76,6 +76,9 @@ inline constexpr std::array<std::string_view, 6> OpenCvRadialKeys{
     "k1", "k2", "k3", "k4", "k5", "k6"};
 /// @}
 
+// A record's designated initializers leave out what the model does not have,
+// which -Wmissing-designated-field-initializers allows where a member says so.
+// NOLINTBEGIN(readability-redundant-member-init)
 struct LensModel {
   /// As reports and cameras.json have it: COLMAP's where it has one.
   std::string_view Name = {};
@@ -149,6 +152,7 @@ struct LensModel {
   bool isPinhole() const { return Macro.empty(); }
   bool byDistance() const { return Depth == DepthRule::Distance; }
 };
+// NOLINTEND(readability-redundant-member-init)
 
 /// The radius before distortion that the radial part takes to \p Distorted: at
 /// most the limit and 1000.

@@ -20,7 +20,7 @@ std::string oneOf(const std::vector<std::string> &Names) {
 
 std::span<const LensModel *const> lenses::all() {
   static constexpr std::array List{
-#define VORION_LENS(Name) &Name,
+#define VORION_LENS(Name) &(Name),
 #include "lens/Lenses.def"
   };
   return List;
