@@ -399,7 +399,7 @@ void addGradients(std::vector<TrainingCase> &Cases) {
   Cases.push_back(reset(/*Antialiased=*/false));
   Cases.push_back(reset(/*Antialiased=*/true));
   Cases.push_back(overBackground());
-  using splat::LensModel;
+  namespace lenses = splat::lenses;
   Cases.push_back(throughLens(&lenses::OpenCv, "gradients-through-opencv",
                               "back through all twelve coefficients and the "
                               "Jacobian's own derivative"));
