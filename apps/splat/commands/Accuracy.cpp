@@ -14,8 +14,6 @@
 #include "study/Study.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
-#include "vorion/support/File.h"
-#include "vorion/support/Json.h"
 #include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Suggest.h"
@@ -266,12 +264,8 @@ Expected<Success> writeResults(const SweepPlan &P, PointStore &Kept,
                  {"host", hostTimeJson(Head.Host)},
                  {"made", Head.Made},
                  {"points", std::move(Points)}});
-  if (auto Written = writeFileAtomically(P.Folder + "/accuracy.json",
-                                         jsonText(Report, 1) + "\n");
-      !Written)
-    return Written;
   const auto Page = pageOf(P, Kept, Head, All);
-  return Page ? writeFileAtomically(P.Folder + "/index.html", *Page)
+  return Page ? writeStudy(P.Folder, "accuracy.json", Report, *Page)
               : Expected<Success>(Page.error());
 }
 

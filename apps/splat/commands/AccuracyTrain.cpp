@@ -11,8 +11,6 @@
 #include "study/Study.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
-#include "vorion/support/File.h"
-#include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
@@ -85,18 +83,14 @@ static Expected<Success> finish(const TrainSweepPlan &P, PointStore &Kept) {
     return Results.error();
   nlohmann::ordered_json Report = reportHead("splat-accuracy-train");
   Report.update(*Results);
-  if (auto Written = writeFileAtomically(P.Folder + "/training.json",
-                                         jsonText(Report, 1) + "\n");
-      !Written)
-    return Written;
   const std::string Made = fmt::format(
       "{}, {} iterations, seeds 0 to {}, pictures {}", P.Capture, P.Iterations,
       P.Seeds - 1,
       P.Downscale == 1 ? "as they are"
                        : fmt::format("{} times smaller", P.Downscale));
-  if (auto Written = writeFileAtomically(
-          P.Folder + "/index.html",
-          trainPageOf(*Results, {Made, madeBy(), hashLine(P.From)}));
+  if (auto Written =
+          writeStudy(P.Folder, "training.json", Report,
+                     trainPageOf(*Results, {Made, madeBy(), hashLine(P.From)}));
       !Written)
     return Written;
   printOut("{}{}/index.html\n", trainTable(*Results), P.Folder);

@@ -12,8 +12,6 @@
 #include "study/Study.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
-#include "vorion/support/File.h"
-#include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
@@ -236,12 +234,8 @@ Expected<Success> write(const ExplorePlan &P, const Json &Results,
   Json Report = reportHead("splat-explore", 2);
   Report["made"] = Made;
   Report.update(Results);
-  if (auto Written = writeFileAtomically(P.Folder + "/explore.json",
-                                         jsonText(Report, 1) + "\n");
-      !Written)
-    return Written;
-  return writeFileAtomically(
-      P.Folder + "/index.html",
+  return writeStudy(
+      P.Folder, "explore.json", Report,
       explorePageOf(Results, {Made, hashLine(provenanceOfAll(P))}));
 }
 

@@ -5,6 +5,8 @@
 #include "io/Inside.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 #include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 
@@ -89,6 +91,16 @@ Expected<Provenance> sceneProvenance(const SceneArguments &S,
 std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First) {
   const std::vector<CLI::Option *> All = App.get_options();
   return {All.begin() + static_cast<std::ptrdiff_t>(First), All.end()};
+}
+
+Expected<Success> writeStudy(const std::string &Folder, const std::string &Name,
+                             const nlohmann::ordered_json &Report,
+                             const std::string &Page) {
+  if (auto Written =
+          writeFileAtomically(Folder + "/" + Name, jsonText(Report, 1) + "\n");
+      !Written)
+    return Written;
+  return writeFileAtomically(Folder + "/index.html", Page);
 }
 
 void logStudy(std::string_view Line) {

@@ -31,6 +31,12 @@ Expected<Provenance> sceneProvenance(const SceneArguments &S,
 /// The options of \p App from the one numbered \p First on.
 std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First);
 
+/// Writes what a study found: \p Report as the file \p Name of \p Folder, and
+/// \p Page as its page.
+Expected<Success> writeStudy(const std::string &Folder, const std::string &Name,
+                             const nlohmann::ordered_json &Report,
+                             const std::string &Page);
+
 /// A line about a run that is done, unless progress is hidden.
 void logStudy(std::string_view Line);
 
