@@ -6,6 +6,7 @@
 
 namespace vorion::test {
 
+namespace lenses = splat::lenses;
 using splat::LensModel;
 
 splat::Camera lensView(const LensModel *M, splat::LensCoefficients K, int Width,

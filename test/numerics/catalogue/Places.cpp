@@ -8,7 +8,7 @@
 namespace vorion::test {
 
 using splat::CameraModel;
-using splat::LensModel;
+namespace lenses = splat::lenses;
 
 namespace {
 
