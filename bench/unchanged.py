@@ -77,7 +77,13 @@ def differences(before, after, where=""):
                 for d in differences(before.get(key), after.get(key), f"{where}.{key}" if where else key)]
     if isinstance(before, list) and isinstance(after, list) and len(before) == len(after):
         return [d for n, pair in enumerate(zip(before, after)) for d in differences(*pair, f"{where}[{n}]")]
-    return [] if before == after else [f"{where}: {before} before, {after} after"]
+    return [] if before == after else [f"{where}: {shortened(before)} before, {shortened(after)} after"]
+
+
+def shortened(value, most=60):
+    """A value as text, for a line that people read: lists of reports are long."""
+    text = str(value)
+    return text if len(text) <= most else text[:most] + "..."
 
 
 def outcome(build, out, key, command, result):
