@@ -16,10 +16,6 @@ using namespace vorion::reference;
 
 namespace {
 
-constexpr const LensModel *Models[] = {&lenses::Pinhole, &lenses::OpenCv,
-                                       &lenses::Fisheye, &lenses::Orthographic,
-                                       &lenses::Equirectangular};
-
 Camera<double> camera(const LensModel *M) {
   auto C = frontCamera(64, 48, M == &lenses::Fisheye ? 20 : 50);
   if (M == &lenses::Equirectangular)
@@ -27,6 +23,8 @@ Camera<double> camera(const LensModel *M) {
   LensCoefficients K{};
   if (M == &lenses::OpenCv)
     K = {-0.25, 0.08, 0.004, -0.006, -0.01, 0.02, 0.03, 0.01, 0.003, -0.001};
+  if (M == &lenses::Division)
+    K = {-0.2};
   if (M == &lenses::Fisheye)
     K = {0.06, -0.02, 0.005};
   setLens(C, *M, K);
@@ -34,7 +32,7 @@ Camera<double> camera(const LensModel *M) {
 }
 
 TEST(AlongRays, APointOnARayIsSeenAtItsPixel) {
-  for (const LensModel *M : Models)
+  for (const LensModel *M : lenses::all())
     for (const bool Rolls : {false, true}) {
       auto C = camera(M);
       if (Rolls)
@@ -97,7 +95,7 @@ TEST(AlongRays, OneGaussianIsItsLargestDensityOnEachRay) {
 }
 
 TEST(AlongRays, SmallFootprintsAreTheSame) {
-  for (const LensModel *M : Models) {
+  for (const LensModel *M : lenses::all()) {
     auto C = camera(M);
     Gaussians<double> G;
     for (int I = 0; I < 60; ++I)

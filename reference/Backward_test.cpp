@@ -144,6 +144,7 @@ TEST(Backward, IsTheDerivativeThroughLenses) {
   } const Lenses[] = {{&lenses::OpenCv,
                        {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
                         -0.01, 0.03, 0, 0.01}},
+                      {&lenses::Division, {-0.3}},
                       {&lenses::Fisheye, {0.1, -0.02, 0.01, 0.002}},
                       {&lenses::Orthographic, {}},
                       {&lenses::Equirectangular, {}}};
@@ -177,6 +178,7 @@ struct {
                     {&lenses::OpenCv,
                      {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
                       -0.01, 0.03, 0, 0.01}},
+                    {&lenses::Division, {-0.3}},
                     {&lenses::Fisheye, {0.1, -0.02, 0.01, 0.002}},
                     {&lenses::Orthographic, {}},
                     {&lenses::Equirectangular, {}}};

@@ -32,10 +32,6 @@ Camera<double> camera(const LensModel *Model, const Coefficients &K = {}) {
   return C;
 }
 
-constexpr const LensModel *Lenses[] = {&lenses::OpenCv, &lenses::Fisheye,
-                                       &lenses::Orthographic,
-                                       &lenses::Equirectangular};
-
 const Coefficients &coefficientsOf(const LensModel *M) {
   return M == &lenses::Fisheye ? Equidistant : Barrel;
 }
@@ -139,7 +135,7 @@ TEST(Lens, WithoutCoefficientsItIsAPinhole) {
 
 TEST(Lens, RowsAreTheDerivative) {
   constexpr double Step = 1e-6;
-  for (const LensModel *M : Lenses) {
+  for (const LensModel *M : lenses::all()) {
     const auto C = camera(M, coefficientsOf(M));
     for (const glm::dvec3 P :
          {glm::dvec3(0.3, -0.2, 1.5), glm::dvec3(-0.4, 0.5, 1),
@@ -161,7 +157,7 @@ TEST(Lens, TheWayBackIsTheDerivativeOfRowsToo) {
   constexpr double Step = 1e-6;
   const LensRows<double> By{{0.7, -0.3, 0.4}, {-0.5, 0.9, 0.2}};
   const glm::dvec2 ByPlace(0.3, -0.8);
-  for (const LensModel *M : Lenses)
+  for (const LensModel *M : lenses::all())
     for (const Rules Rule : {Rules::Inria, Rules::Gsplat}) {
       const auto C = camera(M, coefficientsOf(M));
       const auto Value = [&](const glm::dvec3 &P) {
@@ -197,9 +193,7 @@ TEST(Lens, SevenPointsAgreeWithTheJacobian) {
   addRound(G, {0.3, -0.2, 1.5}, 0.1, 0.8, {1, 1, 1});
   G.Scales[0] = {0.1, 0.03, 0.2};
   G.Quats[0] = {std::cos(0.4), 0, std::sin(0.4), 0};
-  for (const LensModel *M :
-       {&lenses::Pinhole, &lenses::OpenCv, &lenses::Fisheye,
-        &lenses::Orthographic, &lenses::Equirectangular}) {
+  for (const LensModel *M : lenses::all()) {
     const auto C = camera(M, coefficientsOf(M));
     Options Local, Points;
     Local.Dilation = Points.Dilation = 0;

@@ -50,6 +50,9 @@ template <typename T> Dual<T> operator/(const Dual<T> &A, const Dual<T> &B) {
 template <typename T> Dual<T> operator*(double A, const Dual<T> &B) {
   return Dual<T>(A) * B;
 }
+template <typename T> Dual<T> operator/(double A, const Dual<T> &B) {
+  return Dual<T>(A) / B;
+}
 template <typename T> Dual<T> operator+(double A, const Dual<T> &B) {
   return Dual<T>(A) + B;
 }

@@ -21,11 +21,16 @@ Dual<double> distortedRadius(const LensModel &M, const LensCoefficients &K,
                       {Dual<double>::variable(Radius, 0), 0., 1.})[0];
 }
 
-const LensModel *lensModelNamed(std::string_view Name) {
-  for (const LensModel *M : {
-#define VORION_LENS(Name) &lenses::Name,
+std::span<const LensModel *const> lenses::all() {
+  static constexpr std::array List{
+#define VORION_LENS(Name) &Name,
 #include "reference/lens/Lenses.def"
-       })
+  };
+  return List;
+}
+
+const LensModel *lensModelNamed(std::string_view Name) {
+  for (const LensModel *M : lenses::all())
     if (M->Name == Name)
       return M;
   return nullptr;

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace vorion::reference {
@@ -119,6 +120,7 @@ namespace lenses {
 #define VORION_LENS(Name) extern const LensModel Name;
 #include "reference/lens/Lenses.def"
 
+std::span<const LensModel *const> all();
 } // namespace lenses
 
 /// The one whose name is \p Name, or null.

@@ -1,5 +1,6 @@
 #include "cameras/CameraPath.h"
 #include "io/CameraLens.h"
+#include "lens/Models.h"
 
 #include <cmath>
 #include <functional>

@@ -70,6 +70,28 @@ std::string maskOf(const fs::path &Masks, const fs::path &Name) {
   return {};
 }
 
+Expected<Success> checkPinhole(const std::string &File, std::string_view Kind,
+                               const CaptureView &V,
+                               const CaptureOptions &Options) {
+  if (Options.Pictures == LensOf::Photograph)
+    return Success{};
+  if (V.Optics.Model->CoversSphere)
+    return Error{
+        File, fmt::format("{} {} has the camera model {}, of "
+                          "which there is no pinhole's picture, expected "
+                          "photographs of perspective or fisheye cameras, "
+                          "or --distorted",
+                          Kind, printable(V.Pose.Name), V.Optics.Model->Name)};
+  if (V.Optics.Shutter)
+    return Error{File,
+                 fmt::format("{} {} has a rolling shutter, of which there "
+                             "is no pinhole's picture, expected photographs of "
+                             "one moment each (without the key rolling_shutter "
+                             "the first pose counts), or --distorted",
+                             Kind, printable(V.Pose.Name))};
+  return Success{};
+}
+
 Expected<Success> addCamera(const std::string &File, CaptureView V, LensOf Of,
                             CaptureCameras &To) {
   V.Pose.Id = static_cast<int>(To.Cameras.size());

@@ -66,6 +66,12 @@ Expected<Success> leaveOutSome(std::vector<View> &Views, Capture &C) {
   return Success{};
 }
 
+/// That a pinhole's picture can be made of that of \p V, if one is wanted. \p
+/// Kind: what \p File calls a view.
+Expected<Success> checkPinhole(const std::string &File, std::string_view Kind,
+                               const CaptureView &V,
+                               const CaptureOptions &Options);
+
 /// Adds the camera of \p V, which \p File has.
 Expected<Success> addCamera(const std::string &File, CaptureView V, LensOf Of,
                             CaptureCameras &To);

@@ -53,6 +53,9 @@ Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
   C.Views = std::move(Read->Model.Views);
   C.Points = std::move(Read->Model.Points);
   for (CaptureView &V : C.Views) {
+    if (auto Straight = checkPinhole(Read->Images, "image", V, Options);
+        !Straight)
+      return Straight;
     if (auto Inside = checkInside(Read->Images, V.Pose.Name, Options); !Inside)
       return Inside;
     V.Picture = (F.Pictures / V.Pose.Name).string();

@@ -1,5 +1,7 @@
 #include "capture/ColmapRecords.h"
 
+#include "io/CameraLens.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -13,6 +15,7 @@ constexpr ColmapLens WithoutLens[] = {
     {7, "FOV", 2, 1},
     {10, "THIN_PRISM_FISHEYE", 2, 8},
     {11, "RAD_TAN_THIN_PRISM_FISHEYE", 2, 12},
+    {16, "EUCM", 2, 2},
 };
 
 std::vector<ColmapCameraModel> makeModels() {
@@ -57,6 +60,36 @@ Expected<Success> ColmapBuilder::checkModel(const std::string &Where,
   return Success{};
 }
 
+/// Gives \p V, whose size is there, the lens of \p Kind. The error's place is
+/// empty.
+static Expected<Success> seeThrough(const ColmapCameraModel &Kind,
+                                    std::span<const double> Parameters,
+                                    CaptureView &V) {
+  Camera &C = V.Pose;
+  const std::size_t Focals = Kind.FocalLengths;
+  if (Focals == 0) {
+    if (Parameters[0] != C.Width || Parameters[1] != C.Height)
+      return Error{"", fmt::format("parameters {} and {}, expected the width "
+                                   "and the height of its pictures, {} and {}",
+                                   Parameters[0], Parameters[1], C.Width,
+                                   C.Height)};
+    setSphere(C);
+    V.Optics = {Kind.Lens};
+    return Success{};
+  }
+  C.Fx = Parameters[0];
+  C.Fy = Parameters[Focals - 1];
+  C.Cx = Parameters[Focals];
+  C.Cy = Parameters[Focals + 1];
+  if (!allFinite(Parameters) || !(C.Fx > 0) || !(C.Fy > 0))
+    return Error{"", "parameters that are no camera, expected a positive focal "
+                     "length and a finite principal point"};
+  CameraModel Optics{Kind.Lens};
+  std::ranges::copy(Parameters.subspan(Focals + 2), Optics.K.begin());
+  V.Optics = simplified(Optics);
+  return Success{};
+}
+
 Expected<Success> ColmapBuilder::addCamera(const std::string &Where, int64_t Id,
                                            const ColmapCameraModel &Kind,
                                            double Width, double Height,
@@ -73,20 +106,8 @@ Expected<Success> ColmapBuilder::addCamera(const std::string &Where, int64_t Id,
   Camera &C = Taken.Pose;
   C.Width = static_cast<int>(Width);
   C.Height = static_cast<int>(Height);
-  const std::size_t Focals = Kind.FocalLengths;
-  C.Fx = Parameters[0];
-  C.Fy = Parameters[Focals - 1];
-  C.Cx = Parameters[Focals];
-  C.Cy = Parameters[Focals + 1];
-  if (!allFinite(Parameters) || !(C.Fx > 0) || !(C.Fy > 0))
-    return Error{Where,
-                 fmt::format("camera {} has parameters that are no camera, "
-                             "expected a positive focal length and a finite "
-                             "principal point",
-                             Id)};
-  CameraModel Optics{Kind.Lens};
-  std::ranges::copy(Parameters.subspan(Focals + 2), Optics.K.begin());
-  Taken.Optics = simplified(Optics);
+  if (auto Seen = seeThrough(Kind, Parameters, Taken); !Seen)
+    return Error{Where, fmt::format("camera {} has {}", Id, Seen.error().What)};
   if (!Cameras.emplace(Id, Taken).second)
     return Error{Where, fmt::format("camera {} is there twice, expected it "
                                     "once",

@@ -1,6 +1,7 @@
 #include "capture/Colmap.h"
 
 #include "capture/CaptureTest.h"
+#include "lens/Models.h"
 
 #include <algorithm>
 #include <functional>
@@ -204,6 +205,26 @@ TEST(ColmapText, LensesAreThoseOfTheirModels) {
        4,
        3,
        {&lenses::Fisheye, {0.1, 0.2}}},
+      {"SIMPLE_DIVISION 8 6 10 4 3 0.1",
+       10,
+       10,
+       4,
+       3,
+       {&lenses::Division, {0.1}}},
+      {"DIVISION 8 6 10 11 4 3 -0.1",
+       10,
+       11,
+       4,
+       3,
+       {&lenses::Division, {-0.1}}},
+      {"SIMPLE_FISHEYE 8 6 10 4 3", 10, 10, 4, 3, {&lenses::Fisheye}},
+      {"FISHEYE 8 6 10 11 4 3", 10, 11, 4, 3, {&lenses::Fisheye}},
+      {"EQUIRECTANGULAR 8 6 8 6",
+       4 / M_PI,
+       6 / M_PI,
+       4,
+       3,
+       {&lenses::Equirectangular}},
       // Nothing bends.
       {"OPENCV 8 6 10 11 4 3 0 0 0 0", 10, 11, 4, 3, {}}};
   for (const auto &Case : Cases) {
@@ -219,6 +240,17 @@ TEST(ColmapText, LensesAreThoseOfTheirModels) {
       EXPECT_EQ(V.Pose.Cy, Case.Cy);
     }
   }
+}
+
+/// Its parameters say again what the picture's size says.
+TEST(ColmapText, ASphereIsAsLargeAsItsPictures) {
+  Parts P = partsOf(sampleCapture(2), true);
+  P.Cameras = "7 EQUIRECTANGULAR 8 6 8 5\n";
+  const auto M = parsed(P, true);
+  ASSERT_FALSE(M);
+  EXPECT_EQ(M.error().What,
+            "camera 7 has parameters 8 and 5, expected the width and the "
+            "height of its pictures, 8 and 6");
 }
 
 TEST(ColmapText, WhiteSpaceAroundLinesSaysNothing) {
@@ -237,6 +269,25 @@ TEST(ColmapText, WhiteSpaceAroundLinesSaysNothing) {
   EXPECT_EQ(M->Views[0].Pose.Name, "a0.png");
   EXPECT_EQ(M->Views[1].Pose.Name, "one more.png");
   EXPECT_EQ(M->Points.size(), sampleCapture(2).Points.size());
+}
+
+/// Numbers of COLMAP 4.
+TEST(ColmapBinary, ModelsHaveColmapsNumbers) {
+  for (const auto &[Id, Parameters, Lens] :
+       {std::tuple(13, std::vector{10., 11., 4., 3., -0.1}, &lenses::Division),
+        {17, {8., 6.}, &lenses::Equirectangular}}) {
+    Parts P = partsOf(sampleCapture(2), false);
+    std::string &File = P.Cameras;
+    File.resize(8 + 4 + 4 + 8 + 8);
+    patch<int32_t>(File, 12, Id);
+    patch<uint64_t>(File, 16, 8);
+    patch<uint64_t>(File, 24, 6);
+    for (const double Value : Parameters)
+      File.append(reinterpret_cast<const char *>(&Value), sizeof(Value));
+    const auto M = parsed(P, false);
+    ASSERT_TRUE(M) << M.error().What;
+    EXPECT_EQ(M->Views[0].Optics.Model, Lens);
+  }
 }
 
 TEST(ColmapBinary, AFileMayBeginAsAnotherKindDoes) {

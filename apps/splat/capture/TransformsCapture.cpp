@@ -47,28 +47,6 @@ Expected<TransformsFile> transformsOf(const fs::path &File) {
   return parseTransforms(File.string(), *Content);
 }
 
-/// Whether a pinhole's picture can be made of that of \p V, if one is wanted.
-Expected<Success> checkPinhole(const std::string &File, const CaptureView &V,
-                               const CaptureOptions &Options) {
-  if (Options.Pictures == LensOf::Photograph)
-    return Success{};
-  if (V.Optics.Model->CoversSphere)
-    return Error{File,
-                 fmt::format("frame {} has the camera model {}, of "
-                             "which there is no pinhole's picture, expected "
-                             "photographs of perspective or fisheye cameras, "
-                             "or --distorted",
-                             printable(V.Pose.Name), V.Optics.Model->Name)};
-  if (V.Optics.Shutter)
-    return Error{File,
-                 fmt::format("frame {} has a rolling shutter, of which there "
-                             "is no pinhole's picture, expected photographs of "
-                             "one moment each (without the key rolling_shutter "
-                             "the first pose counts), or --distorted",
-                             printable(V.Pose.Name))};
-  return Success{};
-}
-
 } // namespace
 
 Expected<Success> readTransforms(const fs::path &File, ViewSet Set,
@@ -78,7 +56,8 @@ Expected<Success> readTransforms(const fs::path &File, ViewSet Set,
     return T.error();
   const fs::path Folder = File.parent_path();
   for (TransformsView &V : T->Views) {
-    if (auto Straight = checkPinhole(File.string(), V, Options); !Straight)
+    if (auto Straight = checkPinhole(File.string(), "frame", V, Options);
+        !Straight)
       return Straight;
     if (auto Inside = checkInside(File.string(), V.Pose.Name, Options); !Inside)
       return Inside;

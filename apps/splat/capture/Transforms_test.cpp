@@ -1,6 +1,7 @@
 #include "capture/Transforms.h"
 
 #include "capture/CaptureTest.h"
+#include "lens/Models.h"
 
 #include <cmath>
 #include <functional>

@@ -1,4 +1,5 @@
 #include "capture/Undistort.h"
+#include "lens/Models.h"
 
 #include "vorion/support/Hash.h"
 

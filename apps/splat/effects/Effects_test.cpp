@@ -4,6 +4,7 @@
 #include "device/Kernels.h"
 #include "effects/EffectPlan.h"
 #include "effects/Registry.h"
+#include "lens/Models.h"
 #include "picture/View.h"
 
 #include <algorithm>

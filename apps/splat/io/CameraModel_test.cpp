@@ -1,6 +1,7 @@
 // Where camera models end.
 
 #include "io/CameraModel.h"
+#include "lens/Models.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

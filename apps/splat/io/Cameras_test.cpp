@@ -1,5 +1,6 @@
 #include "io/Cameras.h"
 #include "io/TestFiles.h"
+#include "lens/Models.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -150,6 +151,9 @@ TEST(Cameras, WhatIsNotHereIsRefusedByName) {
          "but the camera's model is PINHOLE, expected one of both");
   Expect({{"camera_model", "OPENCV"}, {"is_fisheye", true}},
          "but the camera's model is OPENCV, expected one of both");
+  Expect({{"camera_model", "DIVISION"}, {"k1", 0.1}},
+         "key k1 calls for a distortion by k1, which a camera of model "
+         "DIVISION does not have");
   Expect({{"camera_model", "radial_fisheye"}, {"p1", 0.1}},
          "model RADIAL_FISHEYE does not have");
   Expect({{"camera_model", 3}}, "key camera_model is 3, expected a camera "
@@ -203,6 +207,10 @@ TEST(Cameras, LensesAreReadByAllTheirNames) {
          &lenses::OpenCv, {0, 0, 0, 0, 0, 0.1, 0, 0.2, 0, 0, 0, 1});
   Expect({{"dist_coeffs", {1, 2, 3, 4, 5, 6, 7, 8}}}, &lenses::OpenCv,
          {1, 2, 3, 4, 5, 6, 7, 8});
+  Expect({{"camera_model", "simple_division"}, {"k", -0.1}}, &lenses::Division,
+         {-0.1});
+  Expect({{"camera_model", "DIVISION"}, {"dist_coeffs", {0.2}}},
+         &lenses::Division, {0.2});
   Expect({{"camera_model", "OPENCV"}, {"k1", 0.1}, {"r8", 0.2}},
          &lenses::OpenCv, {0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.2});
   Expect({{"camera_model", "pinhole"},

@@ -22,6 +22,8 @@
 
 // The lens is OpenCV's (lens/OpenCv.cpp).
 #pragma vorion choice effect USE_OPENCV
+// The lens divides (lens/Division.cpp).
+#pragma vorion choice effect USE_DIVISION
 // The lens is a fisheye (lens/Fisheye.cpp).
 #pragma vorion choice effect USE_FISHEYE
 // Rays are parallel (lens/Orthographic.cpp).
@@ -35,6 +37,8 @@
 
 #if USE_OPENCV
 #include "lens_opencv.cl"
+#elif USE_DIVISION
+#include "lens_division.cl"
 #elif USE_FISHEYE
 #include "lens_fisheye.cl"
 #elif USE_ORTHOGRAPHIC

@@ -1,6 +1,6 @@
 // The full sphere: longitude and latitude from straight ahead.
 
-#include "lens/Lenses.h"
+#include "lens/Models.h"
 
 #include <cmath>
 
@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::string_view Names[] = {"EQUIRECTANGULAR"};
 constexpr std::string_view OtherNames[] = {"SPHERICAL"};
+constexpr ColmapLens Colmap[] = {{17, "EQUIRECTANGULAR", 0, 0}};
 
 std::optional<Direction> rayAt(const LensCoefficients & /*K*/, double X,
                                double Y) {
@@ -39,6 +40,7 @@ const LensModel lenses::Equirectangular{
     .Names = Names,
     .OtherNames = OtherNames,
     .ViewerName = "equirectangular",
+    .Colmap = Colmap,
     .Depth = DepthRule::Distance,
     .CoversSphere = true,
     .EffectName = "equirectangular",

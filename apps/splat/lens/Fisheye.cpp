@@ -1,7 +1,7 @@
 // OpenCV's fisheye: a point at the angle t from the axis is seen at the
 // distance t (1 + k1 t^2 + k2 t^4 + k3 t^6 + k4 t^8) from the principal point.
 
-#include "lens/Lenses.h"
+#include "lens/Models.h"
 #include "vorion/support/Polynomial.h"
 
 #include <cmath>
@@ -13,10 +13,12 @@ namespace {
 
 constexpr std::string_view Names[] = {"OPENCV_FISHEYE", "SIMPLE_RADIAL_FISHEYE",
                                       "RADIAL_FISHEYE"};
-constexpr std::string_view OtherNames[] = {"FISHEYE"};
+constexpr std::string_view OtherNames[] = {"FISHEYE", "SIMPLE_FISHEYE"};
 constexpr ColmapLens Colmap[] = {{5, "OPENCV_FISHEYE", 2, 4},
                                  {8, "SIMPLE_RADIAL_FISHEYE", 1, 1},
-                                 {9, "RADIAL_FISHEYE", 1, 2}};
+                                 {9, "RADIAL_FISHEYE", 1, 2},
+                                 {14, "SIMPLE_FISHEYE", 1, 0},
+                                 {15, "FISHEYE", 2, 0}};
 constexpr std::string_view Keys[] = {"k1", "k2", "k3", "k4"};
 
 /// How far from the principal point what is at \p Angle from the axis is shown.

@@ -1,5 +1,6 @@
 #include "lens/Lenses.h"
 
+#include "lens/Models.h"
 #include "vorion/support/Letters.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ std::string oneOf(const std::vector<std::string> &Names) {
 std::span<const LensModel *const> lenses::all() {
   static constexpr std::array List{
 #define VORION_LENS(Name) &(Name),
-#include "lens/Lenses.def"
+#include "reference/lens/Lenses.def"
   };
   return List;
 }

@@ -1,4 +1,5 @@
-/// All camera models.
+/// All camera models. What names a model, which tests alone do outside this
+/// folder, includes Models.h.
 #pragma once
 
 #include "lens/LensModel.h"
@@ -9,8 +10,8 @@ namespace vorion::splat {
 
 namespace lenses {
 
-#define VORION_LENS(Name) extern const LensModel Name;
-#include "lens/Lenses.def"
+/// What a camera is of which nothing else is said.
+extern const LensModel Pinhole;
 
 std::span<const LensModel *const> all();
 

@@ -1,6 +1,7 @@
 // That the records agree with each other, and each equation with its way back.
 
 #include "lens/Lenses.h"
+#include "lens/Models.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

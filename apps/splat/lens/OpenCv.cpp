@@ -1,7 +1,7 @@
 // A pinhole with OpenCV's distortion: radial (a ratio of polynomials of r^2),
 // tangential and of a thin prism.
 
-#include "lens/Lenses.h"
+#include "lens/Models.h"
 #include "vorion/support/Polynomial.h"
 
 #include <algorithm>

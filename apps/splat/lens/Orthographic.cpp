@@ -1,6 +1,6 @@
 // Parallel rays: x, y.
 
-#include "lens/Lenses.h"
+#include "lens/Models.h"
 
 namespace vorion::splat {
 

@@ -1,6 +1,6 @@
 // A pinhole: x/z, y/z.
 
-#include "lens/Lenses.h"
+#include "lens/Models.h"
 
 namespace vorion::splat {
 

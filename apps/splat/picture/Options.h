@@ -71,7 +71,7 @@ struct RenderOptions {
   /// The smallest alpha that is blended, in 1/255: 1, 2, 4 or 8.
   unsigned AlphaCutoff = 1;
   /// What the cameras are; pinholes among OpenCV's count as such.
-  const LensModel *Optics = &lenses::Pinhole;
+  const LensModel *Optics = CameraModel().Model;
   Spread Through = Spread::Jacobian;
   /// Whether a camera moves while it exposes.
   bool Rolling = false;

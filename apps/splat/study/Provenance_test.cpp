@@ -1,6 +1,7 @@
 #include "study/Provenance.h"
 
 #include "io/TestFiles.h"
+#include "lens/Models.h"
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+#include "lens/Models.h"
 #include "view/Request.h"
 
 #include <cmath>

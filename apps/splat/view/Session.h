@@ -100,10 +100,10 @@ private:
   ProgramCache Programs;
   uint64_t Uploaded = 0; ///< number of the scene in Gaussians
   std::array<bool, MaxShDegree> UploadedBands{};
-  GaussianBuffers OnDevice;               ///< activated: no camera changes that
-  std::optional<ViewFacts> Facts;         ///< of all views of a scene so far
-  uint64_t FactsOf = 0;                   ///< its number
-  const LensModel *FactsBy = &lenses::Pinhole; ///< of these views
+  GaussianBuffers OnDevice;           ///< activated: no camera changes that
+  std::optional<ViewFacts> Facts;     ///< of all views of a scene so far
+  uint64_t FactsOf = 0;               ///< its number
+  const LensModel *FactsBy = nullptr; ///< of these views
   std::deque<std::shared_ptr<const DrawnView>> Kept; ///< newest first
   /// @}
 };

@@ -403,6 +403,8 @@ void addGradients(std::vector<TrainingCase> &Cases) {
   Cases.push_back(throughLens(&lenses::OpenCv, "gradients-through-opencv",
                               "back through all twelve coefficients and the "
                               "Jacobian's own derivative"));
+  Cases.push_back(throughLens(&lenses::Division, "gradients-through-division",
+                              "back through a quotient by a square root"));
   Cases.push_back(throughLens(&lenses::Fisheye, "gradients-through-fisheye",
                               "back through the angle's polynomial, where "
                               "differences of nearly equal terms cancel"));

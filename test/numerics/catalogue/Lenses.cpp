@@ -28,6 +28,8 @@ splat::LensCoefficients someCoefficients(const LensModel *M) {
   if (M == &lenses::OpenCv)
     return {-0.25, 0.08,  0.004,  -0.006, -0.01, 0.02, 0.03,
             0.01,  0.003, -0.001, 0.002,  0.001, 0.005};
+  if (M == &lenses::Division)
+    return {-0.3};
   if (M == &lenses::Fisheye)
     return {0.06, -0.02, 0.005, -0.0006};
   return {};

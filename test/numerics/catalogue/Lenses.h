@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Build.h"
+#include "lens/Models.h"
 
 namespace vorion::test {
 

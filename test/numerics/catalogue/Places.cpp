@@ -2,6 +2,8 @@
 // principal point, through long lenses, on wide pictures.
 #include "Places.h"
 
+#include "lens/Models.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -128,6 +130,8 @@ void addPlaces(std::vector<HardCase> &Cases) {
   Cases.push_back(crop("crop-through-fisheye",
                        ", 75 degrees from a fisheye's axis", BendingFisheye,
                        {"crop-by-plain-bend"}));
+  Cases.push_back(crop("crop-through-division", ", through a division",
+                       {&lenses::Division, {-0.1}}, {}));
   Cases.push_back(crop("crop-of-parallel-rays", ", of parallel rays",
                        {&lenses::Orthographic}, {"crop-by-plain-start"}));
 

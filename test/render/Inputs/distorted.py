@@ -23,6 +23,8 @@ COLMAP = {
     "RADIAL": (True, [K1, K2], RADIAL),
     "OPENCV": (False, [K1, K2, P1, P2], BROWN),
     "FULL_OPENCV": (False, [K1, K2, P1, P2, K3, K4, K5, K6], FULL),
+    "SIMPLE_DIVISION": (True, [K2], {"k": K2, "camera_model": "SIMPLE_DIVISION"}),
+    "DIVISION": (False, [K1], {"k": K1, "camera_model": "DIVISION"}),
     "OPENCV_FISHEYE": (False, [K1, K2, K3, K4], FISH),
     "SIMPLE_RADIAL_FISHEYE": (True, [K1], {"k1": K1, "camera_model": "SIMPLE_RADIAL_FISHEYE"}),
     "RADIAL_FISHEYE": (True, [K1, K2], {**RADIAL, "camera_model": "RADIAL_FISHEYE"}),

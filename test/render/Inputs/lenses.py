@@ -2,7 +2,7 @@
 """Writes a view of each camera model, from the first view of another file.
 
 usage: lenses.py CAMERAS.json OUT.json
-opencv, fold, pincushion, fisheye, around, orthographic, sphere, turned (a
+opencv, fold, pincushion, division, simple-division (a crop), fisheye, around, orthographic, sphere, turned (a
 sphere that looks back, so that its seam is where the first view looks),
 rolling and bent (a pinhole and a fisheye that move while they expose)
 """
@@ -23,6 +23,8 @@ def main(source, target):
                    "k6": 0.01, "p1": 0.004, "p2": -0.006, "s1": 0.003, "s2": -0.001, "s3": 0.002, "s4": 0.001},
         "fold": {"dist_coeffs": [-0.6], "fx": 0.7 * focal, "fy": 0.6 * focal, "cx": 0.4 * width},
         "pincushion": {"k1": 0.2},
+        "division": {"camera_model": "DIVISION", "k": -0.3},
+        "simple-division": {"camera_model": "SIMPLE_DIVISION", "k": 0.1, "cx": 1.2 * width},
         "fisheye": {"camera_model": "OPENCV_FISHEYE", "k1": 0.06, "k2": -0.02, "k3": 0.005, "k4": -0.0006},
         "around": {"is_fisheye": True, "fx": height / 6, "fy": height / 6},
         "orthographic": {"camera_model": "ORTHOGRAPHIC", "fx": focal / 3, "fy": focal / 3},

@@ -29,7 +29,7 @@ public:
     bool Antialiased = false; ///< scene/Drawing.h
     /// \name The cameras
     /// @{
-    const LensModel *Optics = &lenses::Pinhole;
+    const LensModel *Optics = CameraModel().Model;
     bool Rolling = false;
     Spread Through = Spread::Jacobian;
     ViewFacts Facts{}; ///< those that need no scene
