@@ -1,26 +1,26 @@
-/// Pictures without footprints, which judge those of footprints.
+/// Pictures by evaluation along rays, a reference for projected footprints.
 #pragma once
 
 #include "Render.h"
 
 namespace vorion::reference {
 
-/// By which depths a pixel blends what it sees.
+/// Depths that define a pixel's blend order.
 enum class RayDepths {
   Own, ///< those of the camera where it is when it exposes the pixel
   Pose ///< those of the camera's pose, as footprints have them
 };
 
-/// A picture in which a pixel sees of each Gaussian the largest density on its
-/// ray (as 3DGUT's and gsplat's rasterizers do), from where the camera is when
-/// it exposes the pixel. The pixel's own camera says which means are in front
-/// of the near plane, in which order they are blended by \p By, and their
-/// colours. The dilation is added across the ray, at the mean's depth. A
-/// Gaussian that is densest behind the ray's origin is not seen.
+/// Renders a picture in which each Gaussian is evaluated at its maximum density
+/// along a pixel's ray (as in the rasterizers of 3DGUT and gsplat), from the
+/// camera's position when it exposes the pixel. The camera at this time
+/// determines near-plane culling, the order of blending by \p By, and colours.
+/// The dilation is added perpendicular to the ray, at the mean's depth. A
+/// Gaussian whose maximum is behind the ray's origin is culled.
 ///
-/// No support limits a Gaussian, so \c Options::Reach and \c Through are not
-/// read, nor is any pixel doubtful. \c Walked counts what each pixel looks at
-/// more closely.
+/// The support of a Gaussian is unlimited, so \c Options::Reach and \c Through
+/// are ignored, and no pixel is doubtful. \c Walked counts the Gaussians that
+/// each pixel evaluates completely.
 Picture<double> renderAlongRays(const Gaussians<double> &G,
                                 const Camera<double> &C, const Options &O,
                                 RayDepths By = RayDepths::Own);

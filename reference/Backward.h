@@ -1,4 +1,5 @@
-/// Gradients of a loss of the picture, back through blending and projection.
+/// Backward pass: gradients of a loss of the picture through blending and
+/// projection.
 #pragma once
 
 #include "Projection.h"
@@ -14,10 +15,10 @@ struct Upstream {
   std::vector<double> Alpha;
 };
 
-/// What blending gives back of one Gaussian, summed over pixels: what the
-/// rasterizer hands to a core (docs/rasterizer.md). With dx, dy from the mean
-/// to the pixel's centre and s = o G dL/dalpha, where o G is alpha before its
-/// clamp.
+/// Partial gradients of one Gaussian from blending, summed over pixels: the
+/// sums that the rasterizer passes to a core (docs/rasterizer.md). dx, dy is
+/// the offset from the mean to the pixel's centre, and s = o G dL/dalpha, where
+/// o G is alpha before clamping.
 struct SplatSums {
   glm::dvec3 Color{0}; ///< dL/dcolour: sum of alpha T dL/dpixel
   double S = 0;
@@ -27,31 +28,31 @@ struct SplatSums {
   SplatSums &operator+=(const SplatSums &Other);
 };
 
-/// Goes back through \c blend for splats of which \c project made \p Splats
-/// with the same \p O: the sums of each, in the order of \p Splats. Where alpha
-/// is held at its clamp the gradient passes under INRIA's rules and is 0 under
-/// gsplat's. The result does not depend on the number of threads.
+/// Backward pass of \c blend, for \p Splats of \c project with the same \p O:
+/// the sums of each, in the order of \p Splats. Where alpha is clamped, the
+/// gradient is passed through with INRIA's rules and is 0 with gsplat's. The
+/// result does not depend on the number of threads.
 std::vector<SplatSums> blendBackward(const std::vector<Splat<double>> &Splats,
                                      int Width, int Height, const Upstream &U,
                                      const Options &O);
 
-/// dL/d(parameters) of a \c Gaussians, and of what lies between.
+/// dL/d(parameters) of a \c Gaussians, and intermediate gradients.
 struct Gradients {
   std::vector<SplatSums> Sums;
   std::vector<glm::dvec2> Means2d; ///< px
   std::vector<glm::dvec3> Conics;  ///< xx, xy (once), yy
   std::vector<glm::dvec3> Means, Scales;
-  /// Of quaternions that are normalised first, at unit length: orthogonal to
-  /// the quaternion. For one of length n the gradient is an n-th of it.
+  /// With respect to normalized quaternions: orthogonal to the quaternion. For
+  /// a quaternion of length n the gradient is this divided by n.
   std::vector<glm::dvec4> Quats;
   std::vector<double> Opacities;
   std::vector<glm::dvec3> Colors; ///< as blended
   std::vector<glm::dvec3> Sh;     ///< empty where the colours are direct
 };
 
-/// \c blendBackward and the way back through \c project. INRIA's rules take a
-/// coordinate that the Jacobian holds at its limit for a constant; gsplat's
-/// differentiate the limit. Gaussians that are not seen have gradients 0.
+/// Backward pass of \c blend and \c project. INRIA's rules treat a coordinate
+/// that is clamped in the Jacobian as a constant; gsplat's differentiate the
+/// limit. Gradients of culled Gaussians are 0.
 Gradients renderBackward(const Gaussians<double> &G, const Camera<double> &C,
                          const Upstream &U, const Options &O);
 

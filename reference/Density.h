@@ -1,4 +1,4 @@
-/// Density control: what becomes of each Gaussian.
+/// Density control: the action for each Gaussian.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@ namespace vorion::reference {
 
 enum class Fate : uint8_t { Drop, Keep, Clone, Split };
 
-/// Gaussians that a fate leaves.
+/// Number of Gaussians that result from an action.
 constexpr std::size_t becomes(Fate F) {
   return F == Fate::Drop ? 0 : F == Fate::Keep ? 1 : 2;
 }
 
-/// What decides about one.
+/// Criteria for one Gaussian.
 struct DensityFacts {
   double Gradient = 0; ///< mean over the views that saw it, half pictures
   double Scale = 0;    ///< of its longest axis
@@ -32,10 +32,10 @@ struct DensityRule {
   std::size_t MostGaussians = 0;
 };
 
-/// Fates by Kerbl et al. 2023: cloning and splitting first, then dropping what
-/// that leaves (a split's halves have no radius yet). Where more than
-/// MostGaussians would be left, those with the largest gradients grow, ties by
-/// index, and the others are kept as they are.
+/// Actions by Kerbl et al. 2023: cloning and splitting first, then pruning of
+/// the result (the parts of a split have no radius yet). If more than
+/// MostGaussians would remain, those with the largest gradients are densified,
+/// ties by index, and the others are kept unchanged.
 std::vector<Fate> fatesOf(const std::vector<DensityFacts> &Gaussians,
                           const DensityRule &Rule);
 

@@ -12,8 +12,8 @@ template <typename Real> using Vec2 = glm::vec<2, Real>;
 template <typename Real> using Vec3 = glm::vec<3, Real>;
 template <typename Real> using Mat3 = glm::mat<3, 3, Real>;
 
-/// M v and A B with sums from the left; GLM would do the same, but here the
-/// order is a promise.
+/// M v and A B with sums from left to right; unlike in GLM, the order is
+/// guaranteed.
 template <typename Real>
 Vec3<Real> multiply(const Mat3<Real> &M, const Vec3<Real> &V) {
   Vec3<Real> R;
@@ -30,7 +30,8 @@ Mat3<Real> multiply(const Mat3<Real> &A, const Mat3<Real> &B) {
   return R;
 }
 
-/// The rotation of a unit quaternion (w, x, y, z); none for the zero one.
+/// The rotation matrix of a unit quaternion (w, x, y, z); the identity for a
+/// zero quaternion.
 template <typename Real> Mat3<Real> rotation(const glm::vec<4, Real> &Q) {
   const Real W = Q[0], X = Q[1], Y = Q[2], Z = Q[3];
   // GLM's constructor takes columns.
@@ -40,8 +41,8 @@ template <typename Real> Mat3<Real> rotation(const glm::vec<4, Real> &Q) {
       2 * (X * Z + W * Y), 2 * (Y * Z - W * X), 1 - 2 * (X * X + Y * Y));
 }
 
-/// Bounds of x/z or y/z in the Jacobian: lower, upper. Beyond the frame the
-/// affine approximation blows up, so it is taken at the bound.
+/// Bounds of x/z or y/z in the Jacobian: lower, upper. Outside the frame the
+/// affine approximation diverges, so it is evaluated at the bound.
 template <typename Real>
 Vec2<Real> slopeLimits(Rules Rule, Real Size, Real Focal, Real Principal) {
   const Real Half = Size / (2 * Focal); // tan(fov / 2)
@@ -79,9 +80,9 @@ Jacobian<Real> jacobian(const Vec3<Real> &P, const Camera<Real> &C,
   return J;
 }
 
-/// dL/d(point) from dL/d(rows) of its Jacobian \p J at the depth \p Z. Where a
-/// coordinate is held, INRIA's rules take it as a constant, and gsplat's
-/// differentiate its limit.
+/// dL/d(point) from dL/d(rows) of its Jacobian \p J at the depth \p Z. INRIA's
+/// rules treat a clamped coordinate as a constant, and gsplat's differentiate
+/// its limit.
 inline glm::dvec3 backThroughJacobian(const Jacobian<double> &J, double Z,
                                       const glm::dvec2 &Focal, Rules Rule,
                                       const LensRows<double> &ByRows) {
@@ -137,7 +138,7 @@ template <typename Real> Real sharpDeterminant(const Footprint<Real> &F) {
   return M01 * M01 + M02 * M02 + M12 * M12;
 }
 
-/// Whether depth \p Z is drawn; a NaN is not.
+/// Whether depth \p Z is beyond the near plane; false for a NaN.
 template <typename Real> bool inFront(Real Z, const Options &O) {
   if (O.Near > 0)
     return O.Rule == Rules::Inria ? Z > Real(O.Near) : Z >= Real(O.Near);

@@ -1,4 +1,4 @@
-/// The loss of a picture against a photograph, as 3DGS trains.
+/// The training loss of 3DGS of a picture against a photograph.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,8 +7,8 @@
 namespace vorion::reference {
 
 /// L = (1 - DSsim) mean |x - y| + DSsim (1 - mean SSIM), means over pixels and
-/// channels. SSIM (Wang et al. 2004) by a Gaussian window that is zero outside
-/// the picture and is not normalised there anew.
+/// channels. SSIM (Wang et al. 2004) with a Gaussian window and zero padding,
+/// without renormalization at the border.
 struct LossRule {
   double DSsim = 0.2;
   int Reach = 5;               ///< the window has 2 Reach + 1 pixels a side
@@ -23,8 +23,8 @@ struct Loss {
   std::vector<glm::dvec3> Gradient; ///< dL/dx; the sign of 0 is 0
 };
 
-/// Of picture \p X against \p Y, both rows from the top, by definition: no
-/// separation of the window, every sum in full.
+/// Loss of picture \p X against \p Y, both rows from the top, directly by the
+/// definition: no separable window.
 Loss lossOf(const std::vector<glm::dvec3> &X, const std::vector<glm::dvec3> &Y,
             int Width, int Height, const LossRule &Rule = {});
 

@@ -1,4 +1,4 @@
-/// What one pixel of a picture is made of.
+/// The contributions to a pixel.
 #pragma once
 
 #include "Render.h"
@@ -15,14 +15,14 @@ template <typename Real> struct Contributor {
   Real Weight = 0; ///< alpha times the transmittance in front of it
 };
 
-/// The Gaussians of pixel (\p X, \p Y), front to back, by the steps and the
-/// decisions of \c blend with the same arguments.
+/// The Gaussians blended in pixel (\p X, \p Y), front to back, by the same
+/// computation as \c blend with the same arguments.
 template <typename Real>
 std::vector<Contributor<Real>>
 contributors(const std::vector<Splat<Real>> &Splats, int Width, int Height,
              const Options &O, int X, int Y);
 
-/// Those of every pixel, rows from the top.
+/// The Gaussians of every pixel, rows from the top.
 template <typename Real>
 std::vector<std::vector<Contributor<Real>>>
 contributorsOfAll(const std::vector<Splat<Real>> &Splats, int Width, int Height,

@@ -1,6 +1,6 @@
-/// What the order of Gaussians does to a picture. Centres' depths give one
-/// order for all pixels, which changes as a whole when the camera moves
-/// ("popping"); each pixel's own ray would give another.
+/// The effect of the blend order on a picture. Depths of centres give one order
+/// for all pixels, which changes globally when the camera moves ("popping");
+/// depths along each pixel's ray give another.
 #pragma once
 
 #include "Render.h"
@@ -14,18 +14,18 @@ namespace vorion::reference {
 /// The depth by which Gaussian \p Index is ordered in pixel (\p X, \p Y).
 using PixelDepth = std::function<double(std::size_t Index, int X, int Y)>;
 
-/// A picture in another order, and what the order moved.
+/// A picture with another blend order, and the number of changes.
 struct Reordered {
-  /// As \c Picture has them.
+  /// As in \c Picture.
   std::vector<glm::dvec3> Render;
   std::vector<double> Transmittance;
   /// Over all pixels, pairs of Gaussians that the pixel blends by the depths of
-  /// centres, and how many of them the other order turns round.
+  /// centres, and the number of them that the other order inverts.
   uint64_t Pairs = 0, Turned = 0;
 };
 
-/// Blends \p Splats, which \c project made with the same \p O, each pixel's by
-/// \p Depth, equal ones by number.
+/// Blends \p Splats, the result of \c project with the same \p O, in each pixel
+/// in the order of \p Depth, ties by index.
 Reordered blendInOrder(const std::vector<Splat<double>> &Splats, int Width,
                        int Height, const Options &O, const PixelDepth &Depth);
 

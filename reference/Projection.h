@@ -1,4 +1,4 @@
-/// From a Gaussian in the world to an ellipse on the picture.
+/// Projection of a Gaussian from world space to an ellipse on the picture.
 #pragma once
 
 #include "Types.h"
@@ -13,12 +13,12 @@ template <typename Real> struct Splat {
   bool ByPoints = false;  ///< whether seven points gave the footprint
   glm::vec<2, Real> Mean; ///< pixels
   Real Depth = 0;         ///< camera z
-  /// How far z may be off before it is rounded to fp32, on a device that
-  /// carries it as a sum of two floats: 2^-44 of the magnitudes of its terms.
+  /// Error bound of z before rounding to fp32, on a device that computes it as
+  /// an unevaluated sum of two floats: 2^-44 of the magnitudes of its terms.
   double DepthSlack = 0;
   glm::vec<3, Real> Covariance; ///< xx, xy, yy, dilated, px^2
-  /// What the dilation added. Behind a rolling shutter it is round to the
-  /// camera that stands still at the mean's moment (Shutter.h).
+  /// The added dilation. With a rolling shutter it is isotropic for the static
+  /// camera at the mean's exposure time (Shutter.h).
   glm::vec<3, Real> Added;
   glm::vec<3, Real> Conic; ///< its inverse: xx, xy, yy
   Real Compensation = 1;   ///< the antialiasing factor
@@ -27,11 +27,11 @@ template <typename Real> struct Splat {
   /// Half width and height of the box outside which the Gaussian is not
   /// evaluated, by the support. For Official16 the square, before tiles.
   glm::vec<2, Real> Extent;
-  /// 3 sqrt(lambda) for the larger eigenvalue as INRIA's rules have it; the
+  /// 3 sqrt(lambda) for the larger eigenvalue, as in INRIA's rules; the
   /// square's half side is this rounded up.
   Real CircleRadius = 0;
-  /// The rule set's own radius along x and y, px: for INRIA's the square's,
-  /// for gsplat's that of its tile test.
+  /// The radius along x and y of the rule set, px: for INRIA that of the
+  /// square, for gsplat that of its tile test.
   glm::ivec2 Radius{0, 0};
 };
 
@@ -74,15 +74,15 @@ template <typename Real>
 std::vector<Splat<Real>> project(const Gaussians<Real> &G,
                                  const Camera<Real> &C, const Options &O);
 
-/// Smallest alpha that is blended, \p Cutoff being \c Options::AlphaCutoff.
+/// Minimum alpha that is blended, for \c Options::AlphaCutoff \p Cutoff.
 template <typename Real> constexpr Real leastAlpha(int Cutoff) {
   return Real(Cutoff) / Real(255);
 }
-/// Least determinant before the dilation over that after it, of which the
-/// antialiasing factor is the root. So specks do not vanish, whose covariance
-/// is nearly all dilation.
+/// Lower bound of the ratio of the determinants before and after dilation,
+/// whose square root is the antialiasing factor. It keeps very small Gaussians,
+/// whose covariance is nearly all dilation, from vanishing.
 inline constexpr double LeastDeterminantRatio = 2.5e-5;
-/// Largest alpha: keeps 1 / (1 - alpha) finite in training.
+/// Maximum alpha: keeps 1 / (1 - alpha) finite in training.
 template <typename Real> constexpr Real mostAlpha() { return Real(0.99); }
 
 } // namespace vorion::reference

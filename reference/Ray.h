@@ -1,5 +1,5 @@
-/// The way back through a camera: from a place on the picture to what is seen
-/// there. The judge of footprints needs it (AlongRays.h).
+/// Unprojection: from a position on the picture to its ray. Needed by the
+/// reference for footprints (AlongRays.h).
 #pragma once
 
 #include "Lens.h"
@@ -8,8 +8,8 @@
 
 namespace vorion::reference {
 
-/// What \p C sees at a place on its picture, at the moment at which it exposes
-/// that place. All in the axes of the camera's pose.
+/// The ray of a position on the picture, at the time at which the camera
+/// exposes that position. In the axes of the camera's pose.
 struct PixelRay {
   glm::dvec3 Eye;       ///< where the camera is then
   glm::dvec3 Origin;    ///< where the ray begins: not the eye of parallel rays
@@ -20,7 +20,7 @@ struct PixelRay {
   LensRows<double> Rows;
 };
 
-/// That of the place \p At, px; nothing where the lens shows nothing.
+/// The ray of the position \p At, px; empty outside the image of the lens.
 std::optional<PixelRay> rayAt(const Camera<double> &C, const glm::dvec2 &At);
 
 } // namespace vorion::reference

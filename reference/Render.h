@@ -8,15 +8,15 @@
 
 namespace vorion::reference {
 
-/// Why a pixel is doubtful: fp32 may decide differently there without being
-/// wrong. Bits of \c Picture::Doubts.
+/// Reasons for which a pixel is doubtful: a correct fp32 implementation may
+/// decide differently there. Bits of \c Picture::Doubts.
 enum Doubt : uint8_t {
   /// A decision at alpha = 1/255, at the transmittance cut-off or at the border
-  /// of the support lies within \c DoubtBand of its threshold.
+  /// of the support is within \c DoubtBand of its threshold.
   DoubtThreshold = 1,
-  /// A Gaussian visible there has a z so near the middle between two fp32
-  /// numbers (\c Splat::DepthSlack) that it may be rounded to either, and the
-  /// other one would change its place among those visible.
+  /// A visible Gaussian has a z so near the midpoint of two fp32 numbers (\c
+  /// Splat::DepthSlack) that it may be rounded to either, with a different
+  /// blend order.
   DoubtOrder = 2,
 };
 
@@ -31,28 +31,28 @@ template <typename Real> struct Picture {
   std::vector<uint8_t> Doubts;           ///< of \c Doubt
   /// Last Gaussian that was blended, -1 if none.
   std::vector<int32_t> Last;
-  /// The Gaussian at which the pixel ended at the cut-off, -1 if it did not.
+  /// The Gaussian at which the pixel was saturated, -1 if it was not.
   std::vector<int32_t> Stop;
 
   /// Blended (Gaussian, pixel) pairs.
   uint64_t Blends = 0;
-  /// List entries that pixels looked at, the saturating one included.
+  /// List entries that pixels visited, including the saturating one.
   uint64_t Walked = 0;
-  /// Pixels that ended at the cut-off.
+  /// Saturated pixels.
   uint64_t Saturated = 0;
 
   double doubtfulShare() const;
 };
 
-/// Blends \p Splats, which \c project made with the same \p O. In fp32 every
+/// Blends \p Splats, the result of \c project with the same \p O. In fp32 every
 /// operation is rounded as docs/abi.md states for the rasterizer, with a
-/// correctly rounded exponential. \c Walked counts entries of the lists that
-/// \c tileLists gives for the support and tile size of \p O.
+/// correctly rounded exponential. \c Walked counts entries of the lists of \c
+/// tileLists for the support and tile size of \p O.
 template <typename Real>
 Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
                     int Height, const Options &O);
 
-/// \c project and \c blend in one.
+/// \c project followed by \c blend.
 template <typename Real>
 Picture<Real> render(const Gaussians<Real> &G, const Camera<Real> &C,
                      const Options &O);

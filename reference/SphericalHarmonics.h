@@ -12,15 +12,16 @@ namespace vorion::reference {
 template <typename Real>
 std::array<Real, 16> shBasis(const glm::vec<3, Real> &D, int Degree);
 
-/// max(0, 0.5 + the sum over the coefficients \p Sh) seen along \p Along, which
-/// need not be of unit length; where it is zero only the constant term counts.
+/// max(0, 0.5 + the sum over the coefficients \p Sh) evaluated in direction \p
+/// Along, which need not be normalized; if it is zero, only the constant term
+/// is used.
 template <typename Real>
 glm::vec<3, Real> shColor(const glm::vec<3, Real> *Sh, int Degree,
                           const glm::vec<3, Real> &Along);
 
-/// The way back through \c shColor: from dL/dcolour \p Gradient to
+/// Backward pass of \c shColor: from dL/dcolour \p Gradient to
 /// dL/dcoefficients, which are written to \p ShGradient, and dL/d\p Along,
-/// which is returned. A channel that is 0 gives nothing back.
+/// which is returned. The gradients of a channel that is clamped to 0 are 0.
 glm::dvec3 shBackward(const glm::dvec3 *Sh, int Degree, const glm::dvec3 &Along,
                       const glm::dvec3 &Gradient, glm::dvec3 *ShGradient);
 

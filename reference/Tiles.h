@@ -1,4 +1,4 @@
-/// Which tiles a Gaussian may reach, and the depth-sorted list of each tile.
+/// The tiles that a Gaussian covers, and the depth-sorted list of each tile.
 #pragma once
 
 #include "Projection.h"
@@ -16,7 +16,7 @@ struct Rect {
   }
 };
 
-/// How a picture is cut into square tiles; the last ones may be partial.
+/// The partition of a picture into square tiles; the last ones may be partial.
 struct TileGrid {
   int Size = 16; ///< pixels
   int Width = 0; ///< of the picture, pixels
@@ -25,7 +25,7 @@ struct TileGrid {
   int Rows = 0;
   TileGrid(int Size, int Width, int Height);
 
-  /// Tiles of the grid, and the place of one among them, row by row.
+  /// Number of tiles in the grid, and the row-major index of one.
   std::size_t count() const { return index(0, Rows); }
   std::size_t index(int Column, int Row) const {
     return std::size_t(Row) * std::size_t(Columns) + std::size_t(Column);
@@ -34,9 +34,9 @@ struct TileGrid {
 
 /// The tiles whose area [t Size, (t + 1) Size) meets the box mean +- extent:
 /// floor((mean - extent) / Size) <= t < floor((mean + extent) / Size) + 1,
-/// clamped to the grid while still in floating point; none if the box begins
-/// behind the picture's last pixel, where the last tile may still go on. For
-/// Official16 the tiles that hold a pixel of \c officialPixels.
+/// clamped to the grid while still in floating point; none if the box starts
+/// after the picture's last pixel, even if the last tile extends farther. For
+/// Official16 the tiles that contain a pixel of \c officialPixels.
 template <typename Real>
 Rect tilesOf(const Splat<Real> &S, Support Reach, const TileGrid &Grid);
 
@@ -51,7 +51,7 @@ Rect officialPixels(const glm::vec<2, Real> &Mean, Real Radius, int Width,
 struct TileLists {
   TileGrid Grid;
   /// Gaussians of each tile front to back: by the bits of z in fp32, ties by
-  /// index, as a stable sort by tile << 32 | depth bits leaves them.
+  /// index, as in a stable sort by tile << 32 | depth bits.
   std::vector<std::vector<uint32_t>> Lists;
 
   uint64_t pairs() const;
@@ -61,13 +61,13 @@ template <typename Real>
 TileLists tileLists(const std::vector<Splat<Real>> &Splats, Support Reach,
                     int TileSize, int Width, int Height);
 
-/// Visible Gaussians front to back, as in the lists; by the leading
-/// \p DepthBits of their depths, equal ones by number.
+/// Visible Gaussians front to back, as in the lists; by the leading \p
+/// DepthBits of their depths, ties by index.
 template <typename Real>
 std::vector<uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats,
                                  int DepthBits = 32);
 
-/// The bits of \p Depth > 0 in fp32, which sort as the value does.
+/// The bits of \p Depth > 0 in fp32, which sort in the order of the values.
 uint32_t depthBits(double Depth);
 
 /// The leading \p DepthBits (1 to 32) of that.

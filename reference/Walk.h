@@ -1,5 +1,5 @@
-/// Internal to the reference: a tile's list, and a pixel's way through it.
-/// Blending and its backward pass take the same steps by the same decisions.
+/// Internal to the reference: traversal of a tile's list by a pixel, shared by
+/// blending and its backward pass.
 #pragma once
 
 #include "Render.h"
@@ -13,8 +13,8 @@
 
 namespace vorion::reference {
 
-/// The support's border as pixels may see it: everything inside \c Inner is
-/// surely in the support, everything outside \c Outer is surely not.
+/// Bounds of the support's border under rounding: everything inside \c Inner is
+/// certainly in the support, everything outside \c Outer is certainly not.
 struct Border {
   double InnerX0, InnerX1, InnerY0, InnerY1;
   double OuterX0, OuterX1, OuterY0, OuterY1;
@@ -28,7 +28,7 @@ struct Border {
   }
 };
 
-/// A splat as the pixels of a tile read it.
+/// A splat as read by the pixels of a tile.
 template <typename Real> struct Candidate {
   glm::vec<2, Real> Mean, Extent;
   glm::vec<3, Real> Conic, Color;
@@ -40,11 +40,12 @@ template <typename Real> struct Candidate {
   bool Listed; ///< in the tile's list, and not only doubtfully so
 };
 
-/// Watches the sort keys of the Gaussians that a pixel sees, front to back.
+/// Checks the sort keys of the Gaussians of a pixel, front to back, for
+/// ambiguous order.
 class DepthOrder {
 public:
-  /// Takes the next one; true if it may belong before an earlier one. Equal
-  /// keys are in the order of the indices on every machine.
+  /// Processes the next Gaussian; true if it may belong before an earlier one.
+  /// Equal keys are in the order of the indices on every machine.
   bool doubtful(uint32_t NearestKey, uint32_t FarthestKey, int32_t Index) {
     const bool Doubtful = std::pair(NearestKey, Index) < Farthest;
     Farthest = std::max(Farthest, std::pair(FarthestKey, Index));
@@ -52,7 +53,7 @@ public:
   }
 
 private:
-  /// The last place that an earlier one may have.
+  /// Largest key that an earlier Gaussian may have.
   std::pair<uint32_t, int32_t> Farthest{0, -1};
 };
 
@@ -61,7 +62,7 @@ inline bool near(double Value, double Threshold) {
 }
 
 /// For the exact support the border is where alpha is 1/255, which \c near
-/// judges; the outer side then only says which tiles to look at.
+/// checks; \c Outer then only determines the tiles.
 template <typename Real>
 Border borderOf(const Splat<Real> &S, const Options &O, int Width, int Height) {
   const Support Reach = O.Reach;
@@ -79,7 +80,7 @@ Border borderOf(const Splat<Real> &S, const Options &O, int Width, int Height) {
     return {Mx - Ex * In,  Mx + Ex * In,  My - Ey * In,  My + Ey * In,
             Mx - Ex * Out, Mx + Ex * Out, My - Ey * Out, My + Ey * Out};
   }
-  // Rounding up makes the radius itself a decision.
+  // The radius itself is a decision because it is rounded up.
   const double Least = std::ceil(S.CircleRadius * (1 - DoubtBand));
   const double Most = std::ceil(S.CircleRadius * (1 + DoubtBand));
   if (Reach == Support::Square3) {
@@ -101,7 +102,7 @@ Border borderOf(const Splat<Real> &S, const Options &O, int Width, int Height) {
           double(Out.X0), double(Out.X1), double(Out.Y0), double(Out.Y1)};
 }
 
-/// All tiles that hold a pixel of \p B's outer side.
+/// All tiles that contain a pixel of the outer bound of \p B.
 inline Rect outerTiles(const Border &B, const TileGrid &Grid) {
   const auto At = [&](double Value, int Count) {
     return static_cast<int>(
@@ -113,13 +114,13 @@ inline Rect outerTiles(const Border &B, const TileGrid &Grid) {
           std::min(At(B.OuterY1, Grid.Rows) + 1, Grid.Rows)};
 }
 
-/// Whether a pixel whose transmittance would become \p T blends no more.
+/// Whether a pixel whose transmittance would become \p T is saturated.
 template <typename Real> bool isFull(Real T, const Options &O) {
   const auto Cutoff = static_cast<Real>(O.Cutoff);
   return O.Rule == Rules::Inria ? T < Cutoff : T <= Cutoff;
 }
 
-/// A Gaussian that a pixel sees, by a depth of the pixel's own.
+/// A Gaussian of a pixel, with its depth along the pixel's ray.
 struct Seen {
   double Depth;
   int32_t Index;
@@ -129,7 +130,7 @@ struct Seen {
   }
 };
 
-/// A Gaussian at a pixel that blends it.
+/// The contribution of a Gaussian to a pixel.
 template <typename Real> struct Contribution {
   std::size_t Entry;  ///< of the tile's list
   Real Dx, Dy;        ///< from the pixel's centre to the mean
@@ -137,7 +138,7 @@ template <typename Real> struct Contribution {
   Real T;             ///< transmittance in front of it
 };
 
-/// How a pixel ended.
+/// The final state of a pixel.
 template <typename Real> struct PixelEnd {
   Real T = 1;
   uint8_t Doubts = 0;
@@ -145,7 +146,7 @@ template <typename Real> struct PixelEnd {
   uint64_t Walked = 0;          ///< list entries looked at
 };
 
-/// The lists of a picture's tiles, and the walk of a pixel through its own.
+/// The lists of a picture's tiles, and their traversal by pixels.
 template <typename Real> class TileWalk {
 public:
   TileWalk(const std::vector<Splat<Real>> &Splats, int Width, int Height,
@@ -153,7 +154,7 @@ public:
       : Splats(Splats), Settings(Settings), Width(Width), Height(Height),
         Grid(Settings.TileSize, Width, Height),
         Least(leastAlpha<Real>(Settings.AlphaCutoff)), Lists(Grid.count()) {
-    // As tileLists, but with everything whose place in a list is doubtful.
+    // As tileLists, but including all entries whose membership is doubtful.
     for (const uint32_t I : depthOrder(Splats, Settings.DepthBits)) {
       const Rect R =
           outerTiles(borderOf(Splats[I], Settings, Width, Height), Grid);
@@ -165,7 +166,7 @@ public:
 
   std::size_t tiles() const { return Lists.size(); }
 
-  /// The pixels of \p Tile that the picture has.
+  /// The pixels of \p Tile inside the picture.
   Rect pixels(std::size_t Tile) const {
     const int X0 = static_cast<int>(Tile) % Grid.Columns * Grid.Size;
     const int Y0 = static_cast<int>(Tile) / Grid.Columns * Grid.Size;
@@ -182,8 +183,8 @@ public:
     return List;
   }
 
-  /// Walks pixel (\p X, \p Y) front to back and calls \p Blend with every
-  /// \c Contribution.
+  /// Traverses the list of pixel (\p X, \p Y) front to back and calls \p Blend
+  /// with every \c Contribution.
   template <typename Function>
   PixelEnd<Real> pixel(const std::vector<Candidate<Real>> &List, int X, int Y,
                        Function Blend) const {
@@ -203,7 +204,7 @@ public:
           C.Conic[1] * Dx * Dy;
       if (!(Power <= 0))
         continue;
-      // Through double: correctly rounded in fp32 but for rare ties.
+      // Computed in double: correctly rounded to fp32 except for rare ties.
       const Real Wanted =
           C.Opacity * static_cast<Real>(std::exp(double(Power)));
       const Real Alpha = std::min(mostAlpha<Real>(), Wanted);
@@ -265,9 +266,8 @@ private:
   std::vector<std::vector<uint32_t>> Lists;
 };
 
-/// Calls \p Work with every tile from 0 to \p Tiles - 1 on \p Threads
-/// threads, 0 for one a processor; the calls share nothing that depends on
-/// their order.
+/// Calls \p Work with every tile from 0 to \p Tiles - 1 on \p Threads threads,
+/// 0 for one per processor. The calls must be independent of their order.
 template <typename Function>
 void forEachTile(std::size_t Tiles, unsigned Threads, Function Work) {
   std::atomic<std::size_t> Next = 0;

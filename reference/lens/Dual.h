@@ -1,6 +1,6 @@
-/// Internal to the reference: numbers that carry their derivatives by three
-/// variables. A lens is written down once, as its formula; its Jacobian and
-/// that one's derivatives come from here.
+/// Internal to the reference: dual numbers with derivatives by three variables.
+/// A lens is implemented once, as its formula; its Jacobian and the derivatives
+/// of the Jacobian are computed by automatic differentiation.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ template <typename T> struct Dual {
   Dual() = default;
   Dual(double Value) : V(Value) {}
   Dual(T Value, std::array<T, 3> By) : V(Value), D(By) {}
-  /// The variable number \p K at \p Value.
+  /// Variable \p K with the value \p Value.
   static Dual variable(const T &Value, std::size_t K) {
     Dual X;
     X.V = Value;
@@ -69,7 +69,7 @@ template <typename T> Dual<T> atan2(const Dual<T> &Y, const Dual<T> &X) {
          chained(X, T(0), -Y.V / Squares);
 }
 
-/// The number itself, without derivatives.
+/// The value without derivatives.
 inline double value(double A) { return A; }
 inline double value(float A) { return A; }
 template <typename T> double value(const Dual<T> &A) { return value(A.V); }

@@ -1,6 +1,6 @@
-/// What the events of a time report are worth in joules and um^2, and how far
-/// off that may be (docs/energy.md). A pure function of the report's activities
-/// and a technology file: the same bits on every host.
+/// The energy of the events of a time report and the area of the units, with
+/// their uncertainty (docs/energy.md). A pure function of the report's
+/// activities and a technology file: results are bit-identical on every host.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -30,8 +30,8 @@ struct DramRail {
   double Idd0 = 0, Idd2n = 0, Idd3n = 0, Idd4r = 0, Idd4w = 0, Idd5 = 0;
 };
 
-/// Of a standard (docs/dram.md): a channel, and the times in which its commands
-/// draw the currents.
+/// Currents of a channel of a DRAM standard (docs/dram.md), and the times in
+/// which its commands draw them.
 struct DramCurrents {
   std::string Standard;
   double Devices = 0; ///< a channel; less than 1 if channels share one
@@ -41,53 +41,55 @@ struct DramCurrents {
   std::string Source;
 };
 
-/// What a technology file says.
+/// The contents of a technology file.
 struct Technology {
   std::string Name;
-  /// Of the factor that all energies of the chip share, and of that of areas.
+  /// Sigma of the factor common to all energies of the chip, and of that of
+  /// areas.
   double Sigma = 0;
   double Volts = 0; ///< at which the rows of the chip hold
-  /// Alpha-power law: a clock is proportional to (V - threshold)^Alpha / V, and
-  /// goes through the two points.
+  /// Alpha-power law: the clock frequency is proportional to (V -
+  /// threshold)^Alpha / V, fitted to the two points.
   double Alpha = 1;
   double LowVolts = 0, LowMhz = 0, HighVolts = 0, HighMhz = 0;
-  /// Leakage current grows by e in so many volts.
+  /// Increase of the voltage, in V, for which the leakage current grows by a
+  /// factor of e.
   double LeakageVolts = 0;
   std::vector<TechnologyRow> Energies, Areas;
   std::vector<DramCurrents> Dram;
 };
 
-/// Reads a technology file. A row that is missing, a key that is not known and
-/// a number that cannot be are errors that name the key.
+/// Reads a technology file. A missing row, an unknown key and an invalid number
+/// are errors that name the key.
 Expected<Technology> parseTechnology(std::string_view Text,
                                      const std::string &Where);
 Expected<Technology> readTechnology(const std::string &Path);
 /// technologies/16nm.json.
 const Technology &defaultTechnology();
-/// Its text, to start a file of one's own from.
+/// Its text, as a template.
 std::string_view defaultTechnologyText();
 
-/// A figure with the interval that holds it in 90 % of the draws.
+/// A value with its 90 % interval over the Monte Carlo samples.
 struct Estimate {
   double Value = 0, Low = 0, High = 0;
 };
 
-/// As an activity of a time report.
+/// An event, named as in the activities of a time report.
 struct EventCount {
   std::string_view Unit, Event;
   uint64_t Count = 0;
 };
-/// Whether the model knows what the event is worth, be it nothing.
+/// Whether the model has a cost for the event, which may be 0.
 bool knowsEvent(const EventCount &E);
 
-/// What a run did.
+/// Activities of a run.
 struct EnergyWork {
   uint64_t Cycles = 0;
   unsigned ClockMhz = 1;
   std::vector<EventCount> Events;
 };
 
-/// Of a part of the machine.
+/// Energy of a part of the machine.
 struct UnitEnergy {
   std::string_view Name;
   bool OnChip =
@@ -102,12 +104,12 @@ struct Energy {
   std::vector<UnitEnergy> Units;
   Estimate Total, Chip; ///< joules
   Estimate Watts, ChipWatts;
-  /// Joules of each draw. Draws of one technology are of one world, so that
-  /// ratios may share them.
+  /// Joules of each Monte Carlo sample. Samples with the same index use the
+  /// same parameters, so that ratios are computed per sample.
   std::vector<double> TotalDraws, ChipDraws;
 };
 
-/// \p Of by \p By, whose draws are shared.
+/// The ratio \p Of / \p By, computed per sample.
 Estimate ratioOf(const std::vector<double> &Of, double OfValue,
                  const std::vector<double> &By, double ByValue);
 
@@ -125,14 +127,14 @@ class EnergyModel {
 public:
   static constexpr unsigned Draws = 1000;
 
-  /// \p Volts: by the technology's law for \p ClockMhz, if it is not given; an
-  /// error where the law has none, and for a voltage far beyond the law.
+  /// \p Volts: default is the voltage for \p ClockMhz by the technology's
+  /// frequency law. Errors: no such voltage, or a voltage far outside the law.
   static Expected<EnergyModel> create(Technology From, unsigned ClockMhz,
                                       std::optional<double> Volts);
 
-  /// An error where the technology does not know the machine's DRAM.
+  /// Error: the technology has no currents for the machine's DRAM.
   Expected<Energy> energyOf(const EnergyWork &Work) const;
-  /// Of the machine that did the work.
+  /// Configuration of the machine.
   Area areaOf(const EnergyWork &Work) const;
 
   double volts() const { return Volts; }
@@ -143,21 +145,21 @@ private:
 
   Technology From;
   double Volts;
-  /// By row and draw: what the row's value is multiplied by.
+  /// Factor of the row's value, by row and sample.
   std::vector<std::vector<double>> EnergyFactors, AreaFactors;
 };
 
-/// The clock that the law allows at a voltage, and the lowest voltage for a
-/// clock; nothing above the law's last point.
+/// The maximum clock frequency at a voltage by the frequency law, and the
+/// minimum voltage for a frequency; empty above the law's last point.
 double clockAt(const Technology &T, double Volts);
 std::optional<double> voltsFor(const Technology &T, double Mhz);
 
 nlohmann::ordered_json toJson(const Estimate &E);
 nlohmann::ordered_json toJson(const Energy &E, const Technology &T);
 nlohmann::ordered_json toJson(const Area &A);
-/// A table, and a line of sums.
+/// A table with a line of sums.
 std::string toText(const Energy &E, const Technology &T);
-/// The rows and what each event is worth, as Markdown tables (docs/energy.md).
+/// The rows and the cost of each event, as Markdown tables (docs/energy.md).
 std::string energyMarkdown(const Technology &T);
 
 } // namespace vorion::isasim

@@ -1,5 +1,5 @@
-/// A program for the machine, checked and taken apart: an ELF executable, or a
-/// raw image of Vortex.
+/// A parsed and validated program for the machine: an ELF executable, or a raw
+/// image of Vortex.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -25,8 +25,7 @@ struct KernelArg {
   uint32_t Size = 0;
 };
 
-/// The variables of program scope that a kernel uses (vx_variables,
-/// docs/abi.md).
+/// The program-scope variables that a kernel uses (vx_variables, docs/abi.md).
 struct ProgramVariables {
   uint32_t Bytes = 0; ///< 0 for none
   uint32_t Alignment = 1;
@@ -45,12 +44,12 @@ struct Kernel {
   std::array<uint32_t, 3> LocalSize{}; ///< 0 for any
   uint32_t Lanes = 0;      ///< of the warps it was compiled for, 0 for any
   uint32_t StackBytes = 0; ///< that it needs of a lane's stack, 0 if not known
-  /// Whether several warps of a core may run its groups.
+  /// Whether several warps of a core may run its work-groups.
   bool SharesCore = false;
   ProgramVariables Variables;
 
-  /// What a group of \p Items work-items keeps across barriers, in bytes: whole
-  /// passes over the lanes.
+  /// Bytes that a group of \p Items work-items saves across barriers, rounded
+  /// up to complete passes over the lanes.
   uint64_t contextBytesOf(uint64_t Items) const {
     const uint64_t Pass = std::max(Lanes, 1U);
     return (Items + Pass - 1) / Pass * Pass * ContextBytes;
@@ -75,38 +74,37 @@ public:
     std::string Name;
   };
 
-  /// Checks \p Elf and takes it apart. \p Name is the file name for messages;
-  /// one that ends in .vxbin is no ELF file (mem/VxBinReader.h).
-  /// Errors: truncated or malformed file, not a 32-bit little-endian RISC-V
-  /// executable, the ABI neither ilp32f nor ilp32, compressed code, a segment
-  /// outside the image range, overlapping segments, writable code, an entry
-  /// point outside the code, a malformed kernel table; names and arguments that
-  /// would take many times the file's size.
+  /// Validates and parses \p Elf. \p Name is the file name for messages; a name
+  /// with the extension .vxbin is a raw image (mem/VxBinReader.h). Errors:
+  /// truncated or malformed file, not a 32-bit little-endian RISC-V executable,
+  /// the ABI neither ilp32f nor ilp32, compressed code, a segment outside the
+  /// image range, overlapping segments, writable code, an entry point outside
+  /// the code, a malformed kernel table; names and arguments whose size is a
+  /// multiple of the file's.
   static Expected<std::shared_ptr<const Image>>
   parse(std::span<const std::byte> Elf, std::string Name);
 
-  /// An image of one segment that begins with its entry point.
+  /// An image of one segment that starts with its entry point.
   static std::shared_ptr<const Image> raw(Segment Only, std::string Name);
 
   const std::string &name() const { return Name; }
   /// The file, as it was given to parse().
   std::span<const std::byte> file() const { return File; }
   uint32_t entry() const { return Entry; }
-  /// What main() needs of a lane's stack, 0 if not known.
+  /// Stack size that main() needs per lane in bytes, 0 if unknown.
   uint32_t mainStackBytes() const { return MainStackBytes; }
-  /// Where a launch of several warps a core begins, 0 for nowhere.
+  /// Entry point of a launch with several warps per core, 0 if there is none.
   uint32_t warpsEntry() const { return WarpsEntry; }
   const std::vector<Segment> &segments() const { return Segments; }
   const std::vector<Kernel> &kernels() const { return Kernels; }
   /// nullptr if there is no such kernel.
   const Kernel *findKernel(std::string_view KernelName) const;
-  /// An error if a kernel, or the one called \p Of, was compiled for warps of
-  /// other than \p Lanes lanes: it would give some work-items to no lane, or to
-  /// two.
+  /// Error: a kernel, or the kernel \p Of, was compiled for warps with another
+  /// number of lanes than \p Lanes, and would skip or repeat work-items.
   Expected<Success> checkLanes(uint32_t Lanes, std::string_view Of = {}) const;
   std::optional<uint32_t> findSymbol(std::string_view SymbolName) const;
-  /// "function+0x1c" for the symbol that covers \p Address, or empty. Absolute
-  /// symbols, most of which are sizes, name the one address that they are where
+  /// "function+0x1c" for the symbol that covers \p Address, or empty. An
+  /// absolute symbol, usually a size, matches only its own value, and only if
   /// no other symbol covers it.
   std::string symbolize(uint32_t Address) const;
   /// Whether the load or store at \p Pc is an atomic access (section
@@ -114,12 +112,12 @@ public:
   bool isAtomicPlace(uint32_t Pc) const {
     return std::ranges::binary_search(AtomicPlaces, Pc);
   }
-  /// The initial bytes at [Address, Address + Bytes) if they lie in one
+  /// The initial bytes at [Address, Address + Bytes) if they are in one
   /// segment's file contents, else an empty span.
   std::span<const std::byte> bytesAt(uint32_t Address, uint32_t Bytes) const;
 
 private:
-  /// The segment with \p Address in its memory, or nullptr.
+  /// The segment that contains \p Address, or nullptr.
   const Segment *segmentAt(uint32_t Address) const;
 
   std::string Name;

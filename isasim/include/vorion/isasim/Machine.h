@@ -1,7 +1,6 @@
-/// The simulated device: cores, rasterizers, memory. One object is one device
-/// that is loaded and run any number of times; memory keeps its contents
-/// between runs. Not thread-safe: one call at a time (a run uses host threads
-/// of its own inside).
+/// The simulated device: cores, rasterizers, memory. A device can be loaded and
+/// run any number of times; memory keeps its contents between runs. Not
+/// thread-safe: one call at a time (a run uses internal host threads).
 #pragma once
 
 #include "vorion/isasim/Config.h"
@@ -23,7 +22,7 @@ namespace vorion::isasim {
 class Observer;
 class TimeObserver;
 
-/// What the clock does in a run.
+/// Mode of the timing model in a run.
 enum class Clocking {
   Off,    ///< the run takes no time, and leaves the clock's caches as they were
   WarmUp, ///< it goes on, but nobody is told: no RunResult::Time, no observer
@@ -32,7 +31,7 @@ enum class Clocking {
 
 class Machine {
 public:
-  /// A machine of the given shape; errors: validate(), or the host has no
+  /// Creates a machine. Errors: those of validate(), or the host has not enough
   /// address space for its memory.
   static Expected<std::unique_ptr<Machine>> create(const Config &C);
   ~Machine();
@@ -41,19 +40,20 @@ public:
 
   const Config &config() const;
 
-  /// Puts \p Program into the image range in place of what was there: read-only
-  /// and initialised data are written, .bss is zeroed. Loading the image that
-  /// is already loaded resets its data.
+  /// Loads \p Program and replaces the previous image: read-only and
+  /// initialised data are written, .bss is zeroed. Loading the same image again
+  /// resets its data.
   void load(std::shared_ptr<const Image> Program);
   /// The loaded image, or nullptr.
   const std::shared_ptr<const Image> &image() const;
 
-  /// The host's view of [Address, Address + Bytes) in global memory, or nullptr
-  /// if the range is not all global memory. Valid as long as the machine. Not
-  /// to be used during a run, except on memory that the program does not touch.
+  /// Host pointer to [Address, Address + Bytes) in global memory, or nullptr if
+  /// the range is not completely global memory. Valid for the lifetime of the
+  /// machine. During a run, only memory that the program does not access may be
+  /// used.
   std::byte *hostPointer(uint32_t Address, uint64_t Bytes);
   /// Copies from or to global memory, the image or the stacks; false if the
-  /// range is not mapped or crosses from one region to another.
+  /// range is not mapped or crosses the border of a region.
   bool read(uint32_t Address, std::span<std::byte> To) const;
   bool write(uint32_t Address, std::span<const std::byte> From);
   bool fill(uint32_t Address, uint64_t Bytes, std::byte Value);
@@ -65,61 +65,61 @@ public:
   /// its limit. Without an image the result is a fetch fault.
   RunResult run(uint32_t LaunchBlock = 0);
 
-  /// Receives what the program writes to the console word, complete lines
-  /// in core order (docs/abi.md), during run(). Default: stdout.
+  /// Callback for console output of the program: complete lines in core order
+  /// (docs/abi.md), during run(). Default: stdout.
   void setConsole(std::function<void(std::string_view)> Sink);
 
-  /// Whether the build has what reports to observers (CMake's
-  /// VORION_OBSERVERS).
+  /// Whether the build supports observers (CMake's VORION_OBSERVERS).
   static bool canBeObserved();
 
-  /// The observers, told in this order, see every event of the following runs,
-  /// which then use one host thread. They change no result.
+  /// Attaches observers to the following runs, which then use one host thread.
+  /// They are notified in this order, and do not change results.
   void setObservers(std::vector<Observer *> Observers);
 
-  /// The observers of the clock (timing/common/TimeObserver.h, for those of
-  /// this library) watch it in the following runs. Without a clock nothing
-  /// happens.
+  /// Attaches observers of the clock (timing/common/TimeObserver.h, internal to
+  /// this library) to the following runs. No effect without a clock.
   void setTimeObservers(std::vector<TimeObserver *> Observers);
 
-  /// Whether the clock, where there is one, goes on in the following runs; it
-  /// is On from the beginning. When it is turned off or on, rasterizers'
-  /// commands that are under way are done with for it.
+  /// Sets the mode of the clock, if there is one, for the following runs;
+  /// initially On. A change completes pending rasterizer commands in the timing
+  /// model.
   void setClocking(Clocking Of);
 
-  /// Ends a run that takes longer, with Outcome::LimitReached; 0 for no limit.
-  /// Looked at every few thousand instructions of a core, every few thousand
-  /// Gaussians of a rasterizer, and while a debugger is waited for.
+  /// Wall-clock limit of a run, which then stops with Outcome::LimitReached; 0
+  /// for no limit. Checked every few thousand instructions of a core, every few
+  /// thousand Gaussians of a rasterizer, and while waiting for a debugger.
   void setWatchdog(double Seconds);
 
-  /// Ends the run in progress likewise. From any thread, or an observer.
+  /// Stops the current run with Outcome::LimitReached. May be called from any
+  /// thread or an observer.
   void requestStop();
 
-  /// Whether the run in progress has been asked to end, or has taken longer
-  /// than the watchdog allows. From any thread.
+  /// Whether a stop of the current run was requested, or the watchdog has
+  /// expired. May be called from any thread.
   bool mustStop() const;
 
   /// The raster CSR window of docs/abi.md as the host sees it (lane 0 of a CSR
   /// that every lane has); not during a run. nullopt or false for a core or CSR
-  /// that is not there or is read-only. A command that is started here has been
-  /// executed when the call returns.
+  /// that is not there or is read-only. A command started here is complete when
+  /// the call returns.
   std::optional<uint32_t> readRasterCsr(unsigned Core, unsigned Csr);
   bool writeRasterCsr(unsigned Core, unsigned Csr, uint32_t Value);
 
-  /// \name What a run leaves to the next
-  /// All that function knows. A machine of the same shape that is given it goes
-  /// on as this one does; the clock has state of its own. Not during a run.
+  /// \name Functional state between runs
+  /// The complete functional state. A machine with the same configuration
+  /// continues identically from it; the state of the clock is separate. Not
+  /// during a run.
   /// @{
 
-  /// Global memory, and the stacks as they lie on the host.
+  /// Global memory, and the stacks in their interleaved host layout.
   std::vector<std::span<std::byte>> memory() const;
-  /// The writable segments of the loaded image, one behind the other.
+  /// The writable segments of the loaded image, concatenated.
   std::vector<std::byte> imageData() const;
-  /// False if these have another size.
+  /// False if the size does not match.
   bool setImageData(std::span<const std::byte> Data);
-  /// Of rasterizers and Raster Agents; none while a command is under way.
+  /// State of rasterizers and Raster Agents; empty while a command is pending.
   std::optional<std::vector<std::byte>> rasterState() const;
-  /// False if it is no state of such a machine.
+  /// False if the state does not fit the machine.
   bool setRasterState(std::span<const std::byte> State);
   /// @}
 

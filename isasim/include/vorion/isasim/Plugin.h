@@ -1,4 +1,4 @@
-/// Observers and exponential units of somebody else's, in a shared object that
+/// Third-party observers and exponential units, in a shared object that
 /// `vorion-sim --plugin` and VORION_PLUGINS load (docs/plugins.md).
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace vorion::isasim {
 
-/// What Plugin and Observer's functions are, and mean. A simulator takes
-/// plugins of its own number alone.
+/// Version of the plugin interface and of its semantics. A simulator loads only
+/// plugins of its own version.
 inline constexpr uint32_t PluginVersion = 2;
 
-/// Differs where what these functions are given has other sizes.
+/// Hash of the sizes of the types in the interface.
 constexpr uint64_t pluginLayout() {
   uint64_t Hash = 0;
   for (const uint64_t Size :
@@ -23,27 +23,28 @@ constexpr uint64_t pluginLayout() {
   return Hash;
 }
 
-/// A unit with which the lanes of all rasterizers of the process compute in the
-/// place of one of their own. The clock knows only that one's time and area.
+/// A unit that replaces an exponential unit in the lanes of all rasterizers of
+/// the process. The timing and area models keep the values of the replaced
+/// unit.
 struct ExpUnitPlugin {
-  /// The one that it replaces, by its name in docs/model.md: "table", "poly2".
+  /// Name of the replaced unit in docs/model.md: "table", "poly2".
   const char *Replaces = nullptr;
-  /// exp(Power) for Power <= 0, at most e times too large. The same Power must
-  /// give the same bits, from several threads at once. Null: no unit.
+  /// exp(Power) for Power <= 0, at most e times too large. Must be
+  /// deterministic and thread-safe. Null: no unit.
   float (*Evaluate)(float Power) = nullptr;
 };
 
 struct Plugin {
   uint32_t Version = PluginVersion; ///< stays first in every version
   uint64_t Layout = pluginLayout();
-  /// Makes what watches one machine. It is told of all its runs, and destroyed
-  /// with the machine. Null: nothing watches.
+  /// Creates the observer of a machine. It is notified of all runs of the
+  /// machine, and destroyed with it. Null: no observer.
   std::unique_ptr<Observer> (*Make)() = nullptr;
   ExpUnitPlugin Exp = {};
 };
 
 } // namespace vorion::isasim
 
-/// What a plugin defines, under a name of C.
+/// The entry point that a plugin defines, with C linkage.
 // NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" const vorion::isasim::Plugin vorion_plugin;

@@ -1,5 +1,5 @@
-/// What a run of the machine came to. A guest's fault or hang is a result here,
-/// never the host's death.
+/// The result of a run of the machine. A fault or hang of the guest is a result
+/// and never terminates the host.
 #pragma once
 
 #include "vorion/isasim/Counters.h" // generated from intrinsics/Counters.td
@@ -27,7 +27,7 @@ enum class Outcome {
 std::string_view describe(TrapCause Cause);
 std::string_view describe(Outcome O);
 
-/// Where and why a warp stopped.
+/// Location and reason of a warp's stop.
 struct Trap {
   TrapCause Cause = TrapCause::IllegalInstruction;
   uint32_t Pc = 0;
@@ -54,17 +54,17 @@ std::vector<NamedCounter> counters(const RunResult &R);
 
 struct RunResult {
   Outcome End = Outcome::Done;
-  /// The value stored to the exit word, 0 if none was.
+  /// The value stored to the exit word, 0 if there was no store.
   uint32_t ExitCode = 0;
   Trap Fault; ///< meaningful for Outcome::Trap
-  /// For Trap, Hang and LimitReached: what happened, several lines, each ended
-  /// by a newline. Empty otherwise.
+  /// For Trap, Hang and LimitReached: a report of several lines, each
+  /// terminated by a newline. Empty otherwise.
   std::string Report;
 
   CoreCounters Total;
   std::vector<CoreCounters> Cores;
   RasterCounters Raster; ///< over all rasterizers and pixel units
-  /// What the run took; without Config::Timing.Enabled there is none.
+  /// The time report; empty without Config::Timing.Enabled.
   std::optional<TimeReport> Time;
   uint64_t SyncPoints = 0;   ///< times all cores were parked
   double HostSeconds = 0;    ///< wall time of the run

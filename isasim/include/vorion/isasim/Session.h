@@ -1,5 +1,5 @@
-/// The observers that a user asked for, and the files that they write. One
-/// session watches all runs of one machine.
+/// The observers that a user requested, and their output files. A session
+/// observes all runs of one machine.
 #pragma once
 
 #include "vorion/isasim/Observer.h"
@@ -17,15 +17,15 @@
 
 namespace vorion::isasim {
 
-/// Texts as the command line or the environment has them; empty for no.
+/// Option values from the command line or the environment; empty: not given.
 struct SessionOptions {
 #define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
   std::string MEMBER;
 #include "vorion/isasim/SessionOptions.def"
 
-  /// The files that will be written, but for standard output.
+  /// The output files, except standard output.
   std::vector<NamedFile> outputs() const;
-  /// Whether the machine has to have its clock on for what is asked for.
+  /// Whether the requested observers need the clock.
   bool needClock() const;
 };
 
@@ -43,11 +43,11 @@ std::span<const SessionOption> sessionOptions();
 
 class EnergyModel;
 
-/// What errors of a session name: the option of which they are is known to who
-/// gave it, or has the name of its variable.
+/// How errors of a session refer to an option: not at all, because the caller
+/// adds its name, or by the environment variable.
 enum class NamedBy { Nothing, Variable };
 
-/// What only who starts a kernel knows of the memory that it gives it.
+/// Information about the memory of a launch that only its caller has.
 struct GivenMemory {
   size_t Argument = 0; ///< its number
   uint64_t Bytes = 0;
@@ -56,11 +56,11 @@ struct GivenMemory {
 
 class Session {
 public:
-  /// Errors: an option that does not parse, a file that cannot be written.
-  /// \p Print receives what is meant for stdout: tables and a profile without a
-  /// file. Null: stdout is the application's; there are files only.
-  /// What checkers find goes to stderr as messages of \p Tool.
-  /// \p Energy is the model that counts joules; null: the default technology's.
+  /// Errors: an invalid option value, a file that cannot be written. \p Print
+  /// receives output for stdout: tables and a profile without a file. Null:
+  /// stdout belongs to the application; only files are written. Findings of
+  /// checkers are printed to stderr as messages of \p Tool. \p Energy is the
+  /// energy model; null: that of the default technology.
   static Expected<std::unique_ptr<Session>>
   create(const SessionOptions &O, std::string Tool,
          NamedBy Names = NamedBy::Nothing,
@@ -70,19 +70,19 @@ public:
   Session(const Session &) = delete;
   Session &operator=(const Session &) = delete;
 
-  /// \p M reports to this session from now on; without observers it runs
-  /// plain. An error if it does not have what was asked for.
+  /// Attaches the session to \p M; without observers the machine runs
+  /// unobserved. Error: \p M does not support a requested observer.
   Expected<Success> attach(Machine &M);
 
-  /// After a run: every file is complete.
+  /// Call after each run: completes every file.
   Expected<Success> runEnded(const RunResult &R);
 
-  /// After the last run: an error if what was asked for never came.
+  /// Call after the last run. Error: a requested event did not occur.
   Expected<Success> finished() const;
 
-  /// Whether anything observes the machine. The driver has to tell what the
-  /// host does, with what follows (Observer.h); where nothing observes, that
-  /// does nothing.
+  /// Whether the machine is observed. The driver reports actions of the host by
+  /// the following functions (Observer.h), which have no effect without
+  /// observers.
   bool observes() const;
   void allocated(uint32_t Address, uint64_t Bytes, const std::string &Name);
   void released(uint32_t Address);
@@ -91,15 +91,15 @@ public:
   void bufferNamed(uint32_t Address, const std::string &Name);
   void localUsed(uint64_t Bytes);
 
-  /// Before runBegins(), where it is known.
+  /// Call before runBegins(), if known.
   void memoryGiven(const std::vector<GivenMemory> &Given);
-  /// Before every run: what it is called, and the address of its launch block
-  /// or 0. Its image is loaded, its arguments are in memory.
+  /// Call before every run with its name and the address of its launch block or
+  /// 0. The image is loaded, the arguments are in memory.
   void runBegins(const std::string &Name, uint32_t LaunchBlock);
 
-  /// Bytes to leave free behind each buffer.
+  /// Bytes of padding after each buffer.
   uint64_t guardBytes() const;
-  /// What checkers have found so far.
+  /// Number of findings of checkers so far.
   uint64_t findings() const;
 
 private:

@@ -1,4 +1,4 @@
-/// A place in the source of a program.
+/// A source location of a program.
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@ namespace vorion::isasim {
 struct SourcePlace {
   std::string File;
   unsigned Line = 0;
-  /// The innermost function, inlined ones too; empty if not known.
+  /// The innermost function, including inlined ones; empty if unknown.
   std::string Function;
-  /// The compiler gave the instruction no line, as where it made one of two:
-  /// this is the line of the nearest instruction before it that has one.
+  /// The instruction has no line in the debug information, for example after
+  /// merging two instructions: this is the line of the nearest preceding
+  /// instruction with one.
   bool IsNear = false;
 
   /// "file:line", or "near file:line".

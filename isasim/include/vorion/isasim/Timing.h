@@ -1,4 +1,4 @@
-/// The clock: what a run costs in cycles (docs/adr/0007-the-clock.md,
+/// The clock, the timing model of a run in cycles (docs/adr/0007-the-clock.md,
 /// docs/model.md).
 #pragma once
 
@@ -14,9 +14,9 @@
 
 namespace vorion::isasim {
 
-/// Of the clock as a whole. Every change of what a run takes raises it;
-/// docs/model.md says what changed and why, and test/timing holds the cycles of
-/// small runs to it.
+/// Version of the timing model. Incremented by every change of modelled cycles;
+/// docs/model.md documents the changes, and test/timing has golden cycles of
+/// small runs.
 inline constexpr unsigned ClockVersion = 3;
 
 // A structure for each group of TimingParams.def, with its defaults.
@@ -33,17 +33,16 @@ struct TimingGroups {
 #include "vorion/isasim/TimingParams.def"
 };
 
-/// Names of sets of numbers for a core (CorePresets.def).
+/// Names of presets of a core (CorePresets.def).
 enum class CorePreset : uint8_t { Forwarding, Vortex5Stage, Vortex2025, Count };
 std::string_view name(CorePreset P);
 CoreTiming numbersOf(CorePreset P);
 
-/// Object "timing" of a configuration. Changes how long things take and
-/// nothing else.
+/// Object "timing" of a configuration. Affects only modelled times.
 struct TimingConfig {
   bool Enabled = false;    ///< whether there is a clock at all
   uint32_t ClockMhz = 530; ///< of everything but DRAM and the host's link
-  /// Where the numbers of Core began; single ones may differ by now.
+  /// The preset from which Core was initialized; single values may differ.
   CorePreset Preset = CorePreset::Forwarding;
 #define GROUP(NAME, MEMBER, WHAT) MEMBER##Timing MEMBER;
 #include "vorion/isasim/TimingParams.def"
@@ -52,12 +51,12 @@ struct TimingConfig {
 /// Bytes of a cache line and of a request to memory.
 inline constexpr uint32_t TimingLineBytes = 64;
 
-/// A parameter of TimingParams.def, for whatever is made from the list.
+/// A parameter of TimingParams.def.
 struct TimingParam {
   std::string_view Group, Name, Unit, Source;
   std::string_view Default;
   uint32_t Low, High;
-  /// A number, or else a word.
+  /// Accessor of a numeric value; null for a value that is a name.
   uint32_t &(*Of)(TimingConfig &);
   std::string &(*WordOf)(TimingConfig &);
 };
@@ -66,26 +65,26 @@ std::span<const TimingParam> timingParams();
 /// (docs/model.md).
 std::string timingMarkdown();
 
-/// Bytes that went over the link to the L2.
+/// Bytes transferred over the link to the L2.
 struct LinkTime {
   uint64_t ToL2 = 0, FromL2 = 0;
 };
 
-/// Events for other people's energy models; what an event is worth in joules
-/// is not said here.
+/// Event counts, the input of energy models.
 struct Activity {
   std::string_view Unit, Event;
   uint64_t Count;
 };
 
-/// What a run took. Sums over a unit's cycles are exactly \c Cycles.
+/// The time report of a run. The sum of a unit's cycles by reason is exactly \c
+/// Cycles.
 struct TimeReport {
   uint64_t Cycles = 0; ///< from the launch until the last core was done
   uint32_t ClockMhz = 0;
   std::string Machine;                     ///< its name (Config.h, nameOf())
   std::vector<std::string> MachineChanges; ///< from the machine of that name
-  /// Of the DRAM: the file's name, empty if it came with the simulator, and
-  /// fnv1a64() of what it says.
+  /// The DRAM timing table: its file name, empty for a built-in one, and the
+  /// fnv1a64() of its text.
   std::string DramTableFile, DramTableHash;
   std::vector<CoreTime> Cores;
   std::vector<RasterTime> Rasters;
@@ -97,11 +96,12 @@ struct TimeReport {
   std::vector<Activity> Activities;
   HostTiming Host; ///< what launches and copies cost beside the run
   uint32_t DramBurstBytes = 0;
-  /// Loads that hit lines of a data cache which others had written since.
+  /// Loads that hit data cache lines that other cores had written since.
   uint64_t StaleLoads = 0;
-  /// Tile commands that nobody has waited for: they go on in the next run.
+  /// Tile commands without a wait: they continue in the next run.
   uint64_t CommandsLeft = 0;
-  /// Times that a trace grew beyond its bound, so that order was guessed.
+  /// Number of times that a trace exceeded its bound, so that the order was
+  /// estimated.
   uint64_t OutOfOrder = 0;
 };
 

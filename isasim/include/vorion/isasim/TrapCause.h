@@ -1,5 +1,5 @@
-/// Why a warp trapped. A header of its own: code that is compiled for several
-/// vector levels includes it, and nothing of the library.
+/// Causes of traps. A separate header because code that is compiled for several
+/// vector levels includes it, and nothing else of the library.
 #pragma once
 
 namespace vorion::isasim {

@@ -1,5 +1,5 @@
-/// Variables of the environment that programs of ours read: errors of what they
-/// say, and names that are nearly theirs.
+/// Environment variables of our programs: errors in their values, and misspelt
+/// names.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -8,20 +8,19 @@
 
 namespace vorion::isasim {
 
-/// Prints a warning of \p Tool for each variable that is set and that no
-/// program reads, if its name is nearly that of one that is read.
+/// Prints a warning of \p Tool for each environment variable that no program
+/// reads and whose name is similar to a known one.
 void warnOfMisspeltVariables(std::string_view Tool);
 
-/// Prints a warning of \p Tool, vorion-sim, for each variable that is set and
-/// that OpenCL programs alone read.
+/// Prints a warning of \p Tool, vorion-sim, for each environment variable that
+/// only OpenCL programs read.
 void warnOfUnreadVariables(std::string_view Tool);
 
-/// \p E, which says what is wrong with the text of the variable \p Name, with
-/// that name before it.
+/// Prepends the name of the variable \p Name to \p E, an error in its value.
 Error inVariable(std::string_view Name, Error E);
 
-/// \p E, which says what is wrong with a whole machine: with the names of the
-/// variables that describe it, VORION_CONFIG and VORION_SET, where they do.
+/// Adds the names of the variables VORION_CONFIG and VORION_SET, as far as they
+/// are set, to \p E, an error in the configuration of the machine.
 Error ofMachine(Error E, bool HasConfig, bool HasSet);
 
 } // namespace vorion::isasim
