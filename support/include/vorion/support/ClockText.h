@@ -1,5 +1,5 @@
-/// Texts of the simulated machine's clock: what the variable VORION_TIME says,
-/// and what stands beside a time.
+/// Text forms of the clock of the simulated machine: the value of the variable
+/// VORION_TIME, and the annotation of printed times.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -11,7 +11,7 @@
 
 namespace vorion {
 
-/// The fastest clock that a machine can be given, in MHz.
+/// Maximum clock frequency of a machine, in MHz.
 inline constexpr uint32_t MostClockMhz = 100000;
 
 struct ClockText {
@@ -25,15 +25,15 @@ struct ClockText {
   std::optional<uint32_t> Mhz; ///< nothing: the machine's own
 
   /// \p Text: nothing; off, 0 or false; on, 1 or true; profiled; or a clock, as
-  /// 100 or 100MHz. A 1 without a unit is no clock: people write it for on. The
-  /// error does not name the variable.
+  /// 100 or 100MHz. A 1 without a unit means on, not a frequency. The error
+  /// does not name the variable.
   static Expected<ClockText> parse(std::string_view Text);
-  /// The text of a clock that is always on, of \p Mhz.
+  /// The text of a clock that is always on, with the frequency \p Mhz.
   static std::string ofMhz(uint32_t Mhz);
 };
 
-/// A machine and its clock for people. Where a time is printed, this stands
-/// beside it. \p Version is that of the simulator's clock, not of a file.
+/// Human-readable description of a machine and its clock, printed with every
+/// time. \p Version is that of the simulator's clock, not of a file.
 std::string clockedMachine(std::string_view Machine, uint64_t Mhz,
                            uint64_t Version);
 

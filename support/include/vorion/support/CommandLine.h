@@ -1,4 +1,4 @@
-/// The command lines of the tools that use CLI11.
+/// Command-line parsing for the tools that use CLI11.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -12,27 +12,26 @@
 
 namespace vorion {
 
-/// Parses \p Arguments, without the program's name, by \p App, whose name is
-/// the tool's. The exit code if that was all, for help and for what the parser
-/// refuses: that is said in the house form, with what was probably meant. The
-/// one argument --print-definition, which no help lists, prints definitionOf().
-/// Values that are empty are refused, as of --json "$UNSET", and numbers that
-/// are NaN, or that single precision takes for 0 or infinite. "help" and "help
-/// COMMAND" are --help, of an \p App that has subcommands.
+/// Parses \p Arguments, without the program's name, with \p App, which has the
+/// name of the tool. Returns an exit code after help and after errors, which
+/// are printed in the project's format with a suggestion. The hidden option
+/// --print-definition prints definitionOf(). Empty values (--json "$UNSET") are
+/// rejected, and so are numbers that are NaN, or are 0 or infinite in single
+/// precision. "help" and "help COMMAND" are synonyms of --help if \p App has
+/// subcommands.
 std::optional<int> parseCommandLine(CLI::App &App,
                                     std::vector<std::string> Arguments);
 
-/// The same for options that come from elsewhere than a command line: prints
-/// nothing. \p App has no help.
+/// The same for options that are not from a command line: prints nothing. \p
+/// App has no help.
 Expected<Success> parseOptions(CLI::App &App,
                                std::vector<std::string> Arguments);
 
-/// A check that takes one of \p Names; of another value it says which was
-/// probably meant.
+/// A validator that accepts one of \p Names; its error has a suggestion.
 CLI::Validator isOneOf(std::vector<std::string> Names);
 
-/// A check that takes numbers from \p Low to \p High, both included. Help shows
-/// what CLI::Range shows, whose messages differ between versions of CLI11.
+/// A validator that accepts numbers from \p Low to \p High, inclusive. Used in
+/// place of CLI::Range, whose messages differ between versions of CLI11.
 template <typename Number> CLI::Validator isBetween(Number Low, Number High) {
   CLI::Validator Check = CLI::Range(Low, High);
   Check.operation([Low, High](const std::string &Word) {
@@ -47,37 +46,36 @@ template <typename Number> CLI::Validator isBetween(Number Low, Number High) {
   return Check;
 }
 
-/// Seeds of random numbers are 0 to this: text that begins with a minus would
-/// be taken for a large one.
+/// Maximum seed of random numbers. Larger values are rejected because a
+/// negative number would be parsed as one.
 inline constexpr uint64_t MostSeed = 1'000'000'000'000'000'000;
 
-/// Says that the value of \p O names a file, with one of \p Endings if there
-/// are some, or a folder: for --help, and for shells that complete names. Each
-/// is there and is read, or is written by the tool.
+/// Declares that the value of \p O is the name of a file, with one of the
+/// extensions \p Endings if there are any, or of a folder: for --help and shell
+/// completion. It is read and exists, or is written by the tool.
 CLI::Option *takesFile(CLI::Option *O,
                        const std::vector<std::string> &Endings = {});
-/// The same of a value that may also be one of \p Names; endings begin with a
-/// dot, names do not.
+/// The same for a value that may also be one of \p Names; extensions begin with
+/// a dot, names do not.
 CLI::Option *takesNameOrFile(CLI::Option *O, std::vector<std::string> Names,
                              const std::vector<std::string> &Endings);
 CLI::Option *takesFolder(CLI::Option *O);
 CLI::Option *writesFile(CLI::Option *O,
                         const std::vector<std::string> &Endings = {});
 CLI::Option *writesFolder(CLI::Option *O);
-/// The same of a value with which the names of several files begin.
+/// The same for a value that is a prefix of several file names.
 CLI::Option *writesFiles(CLI::Option *O);
 
-/// Says that the value of \p O is one of \p Names or several with commas
-/// between them, or something else that the option's help explains.
+/// Declares that the value of \p O is a comma-separated list of \p Names, or
+/// another value that the option's help explains.
 CLI::Option *takesSomeOf(CLI::Option *O, const std::vector<std::string> &Names);
 
-/// Says that the value of \p O is the name of a view in a file of cameras, or
-/// several with commas between them if the option has a delimiter; or one of
-/// \p Others.
+/// Declares that the value of \p O is the name of a view in a camera file, or a
+/// comma-separated list if the option has a delimiter; or one of \p Others.
 CLI::Option *takesView(CLI::Option *O,
                        const std::vector<std::string> &Others = {});
 
-/// What was said of an option's value by the above.
+/// The declaration of an option's value by the functions above.
 struct OptionValue {
   enum class Type { Any, OneOf, SomeOf, View, File, Folder, Prefix };
   Type What = Type::Any;
@@ -87,12 +85,11 @@ struct OptionValue {
 };
 OptionValue valueOf(const CLI::Option &O);
 
-/// The options of \p App that write files, each by all its names as they are
-/// written on a command line.
+/// The options of \p App that write files, with all their names.
 std::vector<std::string> writingOptions(const CLI::App &App);
 
-/// The subcommand of \p App that \p Arguments, without the program's name,
-/// call; null if they call none.
+/// The subcommand of \p App in \p Arguments, which exclude the program's name;
+/// null if there is none.
 const CLI::App *calledCommand(const CLI::App &App,
                               const std::vector<std::string> &Arguments);
 

@@ -1,5 +1,5 @@
-/// The definition of a command line, for programs: pages of the manual,
-/// completion in shells and the documents' lists are made of it.
+/// The machine-readable definition of a command line, from which manual pages,
+/// shell completion and the documents' lists of options are generated.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,7 @@
 
 namespace vorion {
 
-/// What \p App takes, as JSON (docs/schemas/vorion-command-line.json).
+/// The definition of \p App as JSON (docs/schemas/vorion-command-line.json).
 std::string definitionOf(const CLI::App &App);
 
 } // namespace vorion

@@ -1,4 +1,4 @@
-/// The one form of message: `tool: error: file:line: what is wrong, what was
+/// The format of all messages: `tool: error: file:line: what is wrong, what was
 /// expected`. Only a tool's main function prints and exits.
 #pragma once
 
@@ -11,25 +11,26 @@
 namespace vorion {
 
 /// Writes a message to stderr; \p Severity is "error", "warning" or "note".
-/// Colour only on a terminal. \p What may have several lines, as a report of a
-/// trap has. What a terminal would obey is escaped, since names of files and in
-/// files may hold anything.
+/// Colour only on a terminal. \p What may have several lines, for example a
+/// trap report. Control characters are escaped, because the names of files and
+/// in files are untrusted.
 void printDiagnostic(std::string_view Tool, std::string_view Severity,
                      std::string_view Where, std::string_view What);
 
-/// Prints \p E as an error of \p Tool on one line, and gives the exit code for
-/// `main`.
+/// Prints \p E as an error of \p Tool on one line, and returns the exit code
+/// for `main`.
 int reportError(std::string_view Tool, const Error &E);
 
-/// For a command line that the parser refuses with \p What, which seldom names
-/// what it would have taken.
+/// Error for a command line that the parser rejects with \p What, which usually
+/// does not name the expected value.
 int reportUsageError(std::string_view Tool, std::string_view What);
 
-/// Writes \p Text to stdout, escaped as messages are but for its own lines.
-/// What stdout does not take is seen at the end (Tool.h).
+/// Writes \p Text to stdout, escaped like messages except for line ends. Write
+/// errors of stdout are reported at exit (Tool.h).
 void printText(std::string_view Text);
 
-/// From now on what is printed goes to stderr: stdout gets a file (Outputs.h).
+/// Redirects printed text to stderr, because stdout receives a file
+/// (Outputs.h).
 void printToStandardError();
 
 /// printText(), formatted.
@@ -38,7 +39,7 @@ void printOut(fmt::format_string<Values...> Format, Values &&...Of) {
   printText(fmt::format(Format, std::forward<Values>(Of)...));
 }
 
-/// Writes \p Text to stderr as printText() does: what is no message.
+/// Writes \p Text to stderr like printText(), without the format of a message.
 void printNote(std::string_view Text);
 
 /// The last lines of every tool's `--help`.

@@ -1,5 +1,5 @@
-/// A value or a message: how every input error travels (bugs assert,
-/// input errors are values).
+/// A value or an error. Input errors are values of this type; bugs are
+/// assertions.
 #pragma once
 
 #include <cassert>
@@ -20,9 +20,9 @@ enum class ExitCode : int {
   Internal = 70, ///< a bug of ours (EX_SOFTWARE)
 };
 
-/// What went wrong, where, and which exit code it deserves. \c Where is a file
-/// or "file:line" and may be empty; \c What is lower case without a full stop
-/// and says what was expected.
+/// An error with its location and exit code. \c Where is a file or "file:line"
+/// and may be empty; \c What is lower case without a full stop and includes
+/// what was expected.
 struct Error {
   std::string Where;
   std::string What;

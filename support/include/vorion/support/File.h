@@ -1,5 +1,4 @@
-/// Whole files in, and files that appear under their name complete or not at
-/// all.
+/// Reading of complete files, and atomic writing.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -12,23 +11,24 @@
 
 namespace vorion {
 
-/// That \p Path has no NUL, behind which the system would not look: it would
-/// take the name for that of another file.
+/// Checks that \p Path has no NUL, after which the system would ignore the rest
+/// of the name.
 Expected<Success> checkName(const std::string &Path);
 
-/// What is read at most of a device or a pipe, which does not say its size.
+/// Maximum number of bytes that are read from a device or a pipe, whose size is
+/// unknown.
 inline constexpr uint64_t StreamLimit = uint64_t{1} << 30;
 
-/// Reads all of \p Path, of \p Most bytes at most. A regular file says how many
-/// it has, and one that the machine's memory cannot hold is an error before
-/// memory is taken. Of devices and pipes, StreamLimit bytes are read at most.
-/// Directories and unreadable files are errors.
+/// Reads the file \p Path of at most \p Most bytes. A regular file that is
+/// larger than the host's memory is an error before memory is allocated. At
+/// most StreamLimit bytes of devices and pipes are read. Directories and
+/// unreadable files are errors.
 Expected<std::vector<std::byte>> readFile(const std::string &Path,
                                           uint64_t Most = UINT64_MAX);
 
-/// The same of a file that a folder or another file names, which must be a
-/// regular one: nobody means a device there, and a pipe may never get a writer.
-/// Whatever takes the name's place meanwhile, this waits for nothing.
+/// The same for a file to which a folder or another file refers, which must be
+/// a regular file, because a pipe may never get a writer. Never blocks, even if
+/// the file is replaced concurrently.
 Expected<std::vector<std::byte>> readRegularFile(const std::string &Path,
                                                  uint64_t Most = UINT64_MAX);
 
@@ -36,39 +36,37 @@ Expected<std::vector<std::byte>> readRegularFile(const std::string &Path,
 Expected<std::vector<std::byte>> readStart(const std::string &Path,
                                            std::size_t Size);
 
-/// The path that means standard output to whatever writes a file.
+/// The file name that denotes standard output.
 inline constexpr std::string_view StandardOutput = "-";
 
-/// Writes \p Size bytes to \p Path. A regular file is written aside,
-/// synchronized with its disk and renamed, so that an interrupted run leaves
-/// either the old file or the new one; it keeps the permissions of the one that
-/// it replaces and, as far as we may, its owner. Of a symbolic link the target
-/// is replaced. Devices, pipes and standard output, whose name is
-/// StandardOutput, are written through.
+/// Writes \p Size bytes to \p Path atomically: to a temporary file that is
+/// synchronized and renamed, so that an interrupted run leaves either the old
+/// file or the new one. The file keeps the permissions of the replaced one and,
+/// if permitted, its owner. The target of a symbolic link is replaced. Devices,
+/// pipes and standard output (StandardOutput) are written directly.
 Expected<Success> writeFileAtomically(const std::string &Path, const void *Data,
                                       std::size_t Size);
 Expected<Success> writeFileAtomically(const std::string &Path,
                                       std::string_view Text);
 
-/// A file and what it shall hold.
+/// A file and its new contents.
 struct FileContent {
   std::string Path;
   std::string_view Content;
 };
 
-/// Writes several files that are one thing, of which the last is the index that
-/// names the others. All are written aside before any is renamed, so that what
-/// was there stays whole if one cannot be written. The index that was there
-/// goes before the first is renamed: an interrupt among the renames leaves no
-/// index, and never one of other files.
+/// Writes a group of files, of which the last is the index that refers to the
+/// others. All are written to temporary files before any is renamed, so that
+/// existing files are preserved if a write fails. The old index is removed
+/// before the first rename: an interrupt between renames leaves no index, and
+/// never an inconsistent one.
 Expected<Success> writeFilesTogether(const std::vector<FileContent> &Files);
 
-/// Whether writeFileAtomically() could write \p Path, asked before the work
-/// whose result it gets. Makes a file in its folder for a moment.
+/// Checks before a long computation that writeFileAtomically() can write \p
+/// Path. Creates a temporary file in its folder.
 Expected<Success> checkWritable(const std::string &Path);
 
-/// The file that \p Path names through symbolic links; the last of them may
-/// name one that is not there yet.
+/// The target of \p Path through symbolic links, which need not exist.
 std::string targetOf(const std::string &Path);
 
 } // namespace vorion

@@ -1,5 +1,5 @@
-/// What a file is, by its content: for messages of a reader that was given
-/// another kind than it reads. FileKinds.def has the kinds.
+/// Recognition of file kinds by content, for messages of a reader about an
+/// unexpected kind. FileKinds.def lists the kinds.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -20,7 +20,8 @@ enum class FileKind : uint8_t {
   Unknown
 };
 
-/// For what a file is of use here: on that depends what its owner is told.
+/// The use of a kind of file in this project, which determines the hint in a
+/// message.
 enum class FileUse : uint8_t {
   Nothing,
   Picture,      ///< of a kind that we read
@@ -48,51 +49,50 @@ enum class FileUse : uint8_t {
   Page           ///< instead of the file itself
 };
 
-/// The kind of a file that begins with \p File: no more than 4096 bytes are
-/// looked at, so that it need not be whole. Unknown for what has no mark, such
-/// as a `.splat`.
+/// The kind of a file that begins with \p File, of which at most 4096 bytes are
+/// examined. Unknown for formats without magic bytes, such as `.splat`.
 FileKind fileKindOf(std::span<const std::byte> File);
 
-/// Whether \p File has a mark of \p K, for readers of that kind. Kinds without
-/// a mark have none.
+/// Whether \p File has the magic bytes of \p K; false for kinds without magic
+/// bytes.
 bool hasMark(FileKind K, std::span<const std::byte> File);
 
 /// The kind of a zip archive with the entries \p Names.
 FileKind archiveKindOf(const std::vector<std::string> &Names);
 
-/// The kind of an object in JSON, of which \p Has says whether it has a key.
+/// The kind of a JSON object, where \p Has tests for a key.
 FileKind objectKindOf(const std::function<bool(std::string_view)> &Has);
 
-/// Whether \p File begins as a text: no control characters, and few letters
-/// beyond ASCII. The bytes of numbers soon differ.
+/// Whether \p File looks like text: no control characters, and few characters
+/// outside ASCII.
 bool isText(std::span<const std::byte> File);
 
-/// "a picture (PNG)". Not of Unknown.
+/// "a picture (PNG)". Not for Unknown.
 std::string_view name(FileKind K);
 
-/// Of an ELF file, \p File says whether it is for our machine.
+/// For an ELF file, \p File determines whether it is for our machine.
 FileUse useOf(FileKind K, std::span<const std::byte> File = {});
 
-/// Whether a file of kind \p K, which is damaged, may have been meant as JSON:
-/// then its reader says more than what kind it is.
+/// Whether a damaged file of kind \p K may be malformed JSON, about which its
+/// reader has a better message.
 bool mayBeJson(FileKind K);
 
-/// What the file \p File of kind \p K is in more detail: "an ELF executable
+/// Detailed description of the file \p File of kind \p K: "an ELF executable
 /// for x86-64 (64-bit)". Otherwise its name.
 std::string describe(FileKind K, std::span<const std::byte> File);
 
-/// What the owner of a file of use \p U may do, a clause without a full stop;
-/// empty where it is of no use.
+/// A hint for a file of use \p U, a clause without a full stop; empty if there
+/// is none.
 std::string_view adviceFor(FileUse U);
 
-/// The error of a reader that \p Wanted another kind than \p File, whose name
-/// is \p Where: "a picture (PNG), expected a program; ...". If the kind is not
-/// known, \p Otherwise stands for it: "not an ELF file".
+/// The error of a reader that expected \p Wanted and not the kind of \p File,
+/// with the name \p Where: "a picture (PNG), expected a program; ...". \p
+/// Otherwise is used if the kind is unknown: "not an ELF file".
 Error otherKind(const std::string &Where, std::span<const std::byte> File,
                 std::string_view Wanted, std::string_view Otherwise);
 
-/// The same of the file \p Path, which nobody has read. Of what is no regular
-/// file, or cannot be read, the kind is not known.
+/// The same for the file \p Path, whose content has not been read. The kind of
+/// unreadable and non-regular files is unknown.
 Error otherKindAt(const std::string &Path, std::string_view Wanted,
                   std::string_view Otherwise);
 

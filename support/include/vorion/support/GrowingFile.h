@@ -1,4 +1,4 @@
-/// Files that grow during a run.
+/// Output files that are appended to during a run.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -12,15 +12,15 @@
 
 namespace vorion {
 
-/// Is not written aside: a reader may follow it, and what was written before a
-/// crash is what it is read for.
+/// Not written atomically: a reader may follow it, and the part written before
+/// a crash is useful.
 class GrowingFile {
 public:
-  /// "-" is refused: standard output is for what is written at once.
+  /// "-" is rejected: standard output is for files that are written at once.
   static Expected<GrowingFile> open(const std::string &Path);
 
   std::FILE *stream() const { return Stream.get(); }
-  /// An error if it lacks some of what was written to it, which \p What names.
+  /// Error: not everything could be written. \p What names the contents.
   Expected<Success> complete(std::string_view What = "what is observed") const;
   Error incomplete(std::string_view What) const;
 
@@ -34,9 +34,9 @@ private:
   std::unique_ptr<std::FILE, Closer> Stream;
 };
 
-/// Appends to \p To. A file that takes no more is no reason to end a run, and
-/// observers must not throw (fmt::print() does): the file's tool looks at the
-/// stream's error when a run has ended.
+/// Appends to \p To. Write errors do not stop a run, and observers must not
+/// throw (fmt::print() does): the observer checks the error state of the stream
+/// after the run.
 template <typename... Values>
 void append(std::FILE *To, fmt::format_string<Values...> Format,
             Values &&...Of) {

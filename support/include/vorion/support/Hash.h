@@ -1,4 +1,4 @@
-/// Hashes that tell inputs apart, and guard against nobody.
+/// Non-cryptographic hashes of inputs.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ constexpr uint64_t fnv1a(std::string_view Bytes) {
   return Hash;
 }
 
-/// The same as 16 hexadecimal digits.
+/// The hash as 16 hexadecimal digits.
 std::string fnv1a64(std::string_view Bytes);
 
-/// XXH3, 64 bits: of much data, since it is many times as fast.
+/// XXH3, 64 bits: for large data, because it is much faster.
 uint64_t xxh3(std::span<const std::byte> Bytes);
 
 } // namespace vorion

@@ -1,4 +1,4 @@
-/// What --help prints, on terminals of any width.
+/// Line wrapping of --help.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,13 @@
 
 namespace vorion {
 
-/// \p Text with its long lines broken between words, so that none has more than
-/// \p Columns columns. What a line breaks off goes on below its last column, as
-/// the descriptions of options do; where that leaves little room, a description
-/// goes below the option.
+/// \p Text with lines wrapped at \p Columns columns. Continuation lines are
+/// indented to the last column of the line, as for descriptions of options; if
+/// little space is left, a description starts on a new line.
 std::string wrapped(std::string_view Text, std::size_t Columns);
 
-/// Writes \p Text to standard output, as wide as the variable COLUMNS says,
-/// else as the terminal is; elsewhere as it is.
+/// Writes \p Text to standard output, wrapped to the variable COLUMNS, else to
+/// the terminal's width; unwrapped if there is no terminal.
 void printHelp(std::string_view Text);
 
 } // namespace vorion

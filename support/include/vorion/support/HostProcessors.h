@@ -1,4 +1,4 @@
-/// How many of the host's processors this process may use.
+/// Number of processors of the host that this process may use.
 #pragma once
 
 #include <filesystem>
@@ -7,15 +7,14 @@
 
 namespace vorion {
 
-/// Those that it may run on (sched_setaffinity), but no more than its share of
-/// time (\c shareOfTime), which is how containers limit it. More threads than
-/// that would only stop each other. At least 1. What holds at the first call
-/// is what all calls say.
+/// The processors of the affinity mask (sched_setaffinity), limited by the CPU
+/// quota of control groups (\c shareOfTime), which containers use. At least 1.
+/// The value is determined at the first call.
 unsigned hostProcessors();
 
-/// How many processors' time control groups allow (Linux, cpu.max of version 2,
-/// cpu.cfs_quota_us of version 1), rounded up; nothing where they set no limit.
-/// \p Membership is what /proc/self/cgroup says, \p Root is /sys/fs/cgroup.
+/// CPU quota of control groups in processors (Linux, cpu.max of version 2,
+/// cpu.cfs_quota_us of version 1), rounded up; empty without a limit. \p
+/// Membership is the contents of /proc/self/cgroup, \p Root is /sys/fs/cgroup.
 std::optional<unsigned> shareOfTime(std::string_view Membership,
                                     const std::filesystem::path &Root);
 

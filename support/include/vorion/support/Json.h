@@ -1,6 +1,6 @@
-/// The one way into and out of JSON. A file may hold anything, so whoever reads
-/// one gets a document of bounded depth and size, whose objects have no key
-/// twice, or an error of one line.
+/// Parsing and writing of JSON. Files are untrusted, so a parsed document has
+/// bounded depth and size and no duplicate keys; otherwise the result is a
+/// one-line error.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -12,23 +12,23 @@
 
 namespace vorion {
 
-/// What a document may be at most. The defaults are far above every file that
-/// we know of, and low enough for any machine that we run on.
+/// Limits of a document. The defaults are far above all known files, and low
+/// enough for all hosts.
 struct JsonLimits {
-  /// Lists and objects in each other. What walks a document may recurse.
+  /// Maximum nesting, so that recursive traversal is safe.
   std::size_t Depth = 256;
-  /// Of text.
+  /// Maximum size of the text in bytes.
   std::size_t Bytes = std::size_t{64} << 20;
   /// Numbers, strings, lists and so on: each takes 16 bytes or more.
   std::size_t Values = 8'000'000;
-  /// Of one object. An ordered document compares each key with all before it,
-  /// so that this bounds the time for a byte of text.
+  /// Maximum number of keys of an object. An ordered document compares each key
+  /// with all previous ones, so this bounds the time per byte of text.
   std::size_t Keys = 256;
 };
 
-/// Reads \p Text, which comes from \p Where. \p Kind is nlohmann::json or
-/// nlohmann::ordered_json, whose keys stay in the text's order. \p Wanted ends
-/// the message about what is no JSON: "an array of cameras".
+/// Parses \p Text of the file \p Where. \p Kind is nlohmann::json or
+/// nlohmann::ordered_json, which preserves the order of keys. \p Wanted is the
+/// expected document in error messages: "an array of cameras".
 template <typename Kind>
 Expected<Kind> parseJson(std::string_view Text, const std::string &Where,
                          std::string_view Wanted,
@@ -39,19 +39,18 @@ template <typename Kind>
 Expected<Kind> readJson(const std::string &Path, std::string_view Wanted,
                         const JsonLimits &Limits = {});
 
-/// The same of a file that a folder or another file names
+/// The same for a file to which a folder or another file refers
 /// (readRegularFile()).
 template <typename Kind>
 Expected<Kind> readRegularJson(const std::string &Path,
                                std::string_view Wanted);
 
-/// What this process has just written by jsonText() itself; anything else is a
-/// bug and ends in an assertion.
+/// Parses text written by jsonText() in this process; invalid text is a bug and
+/// fails an assertion.
 template <typename Kind> Kind ownJson(std::string_view Text);
 
-/// \p J as text; every level is indented by \p Indent, or all is one line if
-/// that is negative. Bytes that are no UTF-8 (a path may hold any) become
-/// U+FFFD.
+/// \p J as text, indented by \p Indent per level, or on one line if that is
+/// negative. Invalid UTF-8, possible in paths, is replaced by U+FFFD.
 template <typename Kind> std::string jsonText(const Kind &J, int Indent = -1);
 
 } // namespace vorion

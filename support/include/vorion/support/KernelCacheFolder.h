@@ -1,4 +1,5 @@
-/// Where compiled kernels are kept. PoCL's library and `splat` must agree.
+/// The cache folder for compiled kernels, used by PoCL's library and by
+/// `splat`.
 #pragma once
 
 #include <string>
@@ -6,30 +7,28 @@
 
 namespace vorion {
 
-/// Whether compiled kernels are kept from run to run, as POCL_KERNEL_CACHE
-/// says.
+/// Whether compiled kernels are cached between runs (POCL_KERNEL_CACHE).
 bool areKernelsCached();
 
-/// The folder that keeps a user's compiled kernels.
+/// The cache folder of a user.
 struct KernelCacheFolder {
-  /// Absolute and without links; made for this user alone, or trusted
-  /// (Trust.h). Empty if there is none.
+  /// Absolute path without symbolic links; accessible only to this user, or
+  /// trusted (Trust.h). Empty if there is none.
   std::string Path;
-  /// Why there is none, of the folder that POCL_CACHE_DIR names. Empty if the
-  /// variable is unset: without a folder, each process then keeps its kernels
-  /// for itself.
+  /// Reason for which the folder of POCL_CACHE_DIR cannot be used. Empty if the
+  /// variable is unset: without a folder, each process then has its own
+  /// kernels.
   std::string Problem;
-  /// Why folders that come before \c Path are of no use.
+  /// Reasons for which the candidates before \c Path cannot be used.
   std::vector<std::string> PassedOver;
 };
 
-/// POCL_CACHE_DIR; else the first that is good of XDG_CACHE_HOME/pocl/\p Name,
-/// HOME/.cache/pocl/\p Name and the same in the user's home by the database of
-/// users. Of these, relative folders do not count. Makes the folder.
+/// POCL_CACHE_DIR; else the first usable one of XDG_CACHE_HOME/pocl/\p Name,
+/// HOME/.cache/pocl/\p Name and the same in the home folder of the user
+/// database. Relative folders are ignored. Creates the folder.
 KernelCacheFolder findKernelCacheFolder(const std::string &Name = "kcache");
 
-/// The folder of kernels that root has compiled for all users. It need not be
-/// there.
+/// The folder of kernels that root compiled for all users. It need not exist.
 std::string systemKernelCacheFolder();
 
 } // namespace vorion

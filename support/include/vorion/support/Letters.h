@@ -1,4 +1,4 @@
-/// Letters, blanks, and words for numbers of things.
+/// String helpers: case, trimming, plurals.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,17 @@
 
 namespace vorion {
 
-/// \p Text with its ASCII letters as capitals.
+/// \p Text with ASCII letters in upper case.
 std::string upperCase(std::string Text);
 
-/// \p Text with its ASCII letters as small ones.
+/// \p Text with ASCII letters in lower case.
 std::string lowerCase(std::string Text);
 
-/// \p Text without the \p Blanks around it.
+/// \p Text without leading and trailing \p Blanks.
 std::string_view trimmed(std::string_view Text,
                          std::string_view Blanks = " \t");
 
-/// "1 place", "2 places": \p Count, and \p One in its singular or with an s.
+/// "1 place", "2 places": \p Count, and \p One in the singular or with an s.
 std::string counted(uint64_t Count, std::string_view One);
 
 } // namespace vorion

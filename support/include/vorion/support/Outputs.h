@@ -1,4 +1,4 @@
-/// What a tool writes, looked at before any work is done for it.
+/// Checks of a tool's output files before any work is done.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -8,18 +8,17 @@
 
 namespace vorion {
 
-/// A file and what it is called in messages: "-o", "the scene". An empty path
-/// is a file that nobody asked for.
+/// A file and its name in messages: "-o", "the scene". An empty path means that
+/// the file was not requested.
 struct NamedFile {
   std::string Name;
   std::string Path;
 };
 
-/// Whether each of \p Outputs could be written, and is neither another of them
-/// nor one of \p Inputs, under whatever name: by another spelling, a symbolic
-/// or a hard link. Devices and pipes may be named more than once; standard
-/// output ("-") may not. If that is one of them, nothing but it shall get
-/// there: printText() writes to standard error from then on.
+/// Checks that each of \p Outputs can be written, and is not identical to
+/// another output or to one of \p Inputs, including by symbolic or hard links.
+/// Devices and pipes may be used more than once; standard output ("-") may not.
+/// If it is used, printText() writes to standard error from then on.
 Expected<Success> claimOutputs(const std::vector<NamedFile> &Outputs,
                                const std::vector<NamedFile> &Inputs = {});
 

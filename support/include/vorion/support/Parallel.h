@@ -1,4 +1,4 @@
-/// Work that is shared among the host's processors.
+/// Parallel loops over the host's processors.
 #pragma once
 
 #include "vorion/support/HostProcessors.h"
@@ -13,11 +13,12 @@
 
 namespace vorion {
 
-/// Calls \p Work(I) once for each I below \p Count, on one thread a processor,
-/// of which the caller's is one. The calls must not depend on each other, or
-/// the result would depend on the host. If some of them throw, one of their
-/// exceptions is the caller's, and calls that had not begun then are left out.
-/// (reference/ has a loop of its own, because it uses nothing of ours.)
+/// Calls \p Work(I) once for each I below \p Count, on one thread per
+/// processor, including the calling thread. The calls must be independent,
+/// otherwise the result would depend on the host. If calls throw, one of the
+/// exceptions is rethrown, and calls that have not started are skipped.
+/// (reference/ has its own loop, because it does not depend on other
+/// components.)
 template <typename Function>
 void inParallel(std::size_t Count, const Function &Work) {
   std::atomic<std::size_t> Next = 0;
@@ -43,7 +44,7 @@ void inParallel(std::size_t Count, const Function &Work) {
     std::rethrow_exception(First);
 }
 
-/// The same for parts of at most \p Each consecutive numbers:
+/// The same for chunks of at most \p Each consecutive indices:
 /// \p Work(First, End).
 template <typename Function>
 void inParallelParts(std::size_t Count, std::size_t Each,

@@ -1,4 +1,4 @@
-/// What is to go where a process ends without calling destructors.
+/// Clean-up when a process exits without calling destructors.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace vorion {
 
-/// While this lives, removeAtEnd() removes a file, or a folder with all that is
-/// in it. A copy of the process (fork) holds nothing. Of more than 64 at a
-/// time, the others stay.
+/// During the lifetime of this object, removeAtEnd() removes a file or a folder
+/// with its contents. Not inherited by a forked process. At most 64 at a time
+/// are removed.
 class RemovedAtEnd {
 public:
   /// \p Path may be relative if the process never changes its folder.
@@ -22,7 +22,7 @@ private:
   int Slot; ///< negative: of none
 };
 
-/// A signal's handler may call it.
+/// Async-signal-safe.
 void removeAtEnd();
 
 } // namespace vorion

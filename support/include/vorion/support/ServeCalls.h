@@ -1,4 +1,4 @@
-/// A tool that stays, so that its start is paid for once.
+/// A tool as a server process, which avoids its start-up time.
 #pragma once
 
 #include <functional>
@@ -6,13 +6,13 @@
 
 namespace vorion {
 
-/// Serves calls over standard input, a socket (ToolMessages.h), in a process
-/// that is nobody's child: the one that was started ends at once, so that its
-/// parent has none to wait for. \p Call gets what a main function gets, \p Name
-/// first, and gives the exit code; the answer is that number, a blank, and what
-/// was printed. The process ends when its client is gone, after ten seconds
-/// without a call, after a call that failed, and when calls have left much
-/// memory taken: clang gives none back. Returns the exit code.
+/// Serves calls over standard input, a socket (ToolMessages.h), in a daemon
+/// process: the original process exits at once, so that its parent need not
+/// wait. \p Call has the arguments of a main function, with \p Name first, and
+/// returns the exit code; the response is that number, a blank, and the printed
+/// text. The process exits when its client disconnects, after ten seconds
+/// without a call, after a failed call, and when its memory has grown much,
+/// because clang does not free memory. Returns the exit code.
 int serveCalls(char *Name, const std::function<int(std::span<char *>)> &Call);
 
 } // namespace vorion

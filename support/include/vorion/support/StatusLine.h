@@ -1,22 +1,21 @@
-/// The line of a terminal that says what is going on, and is written over until
-/// something else is printed. There is one, on standard error; where a line
-/// cannot be overwritten (Terminal.h) there is none.
+/// The progress line of a terminal, which is overwritten until something else
+/// is printed. There is one per process, on standard error; none if the
+/// terminal cannot overwrite lines (Terminal.h).
 #pragma once
 
 #include <string_view>
 
 namespace vorion {
 
-/// Puts \p Text in the place of what the line shows: as much of it as fits into
-/// the terminal, whose width is asked for each time. An interrupt that ends a
-/// tool meanwhile ends the line first (Tool.h).
+/// Replaces the line by \p Text, truncated to the current width of the
+/// terminal. An interrupt that stops the tool terminates the line first
+/// (Tool.h).
 void showStatus(std::string_view Text);
 
 /// Removes the line, so that something else can be printed there.
 void clearStatus();
 
-/// Leaves what the line shows, and goes on below it. May be called in a
-/// signal's handler.
+/// Keeps the line and starts a new one. Async-signal-safe.
 void keepStatus();
 
 } // namespace vorion

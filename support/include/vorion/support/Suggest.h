@@ -1,4 +1,4 @@
-/// "Did you mean": what a mistyped word was probably meant to be.
+/// Suggestions for misspelt words ("did you mean").
 #pragma once
 
 #include <span>
@@ -8,16 +8,15 @@
 
 namespace vorion {
 
-/// The word of \p Known that differs least from \p Word by letters left out,
-/// put in, changed or swapped with their neighbour; of several, the first. If
-/// none is near, the one that \p Word, of two letters or more, begins, and that
-/// begins all others that it begins; else empty. Nobody is told what they
-/// wrote: empty, too, if \p Known has it.
+/// The word of \p Known with the smallest Damerau-Levenshtein distance to \p
+/// Word; the first of several. If none is near, the word of which \p Word, of
+/// at least two letters, is a prefix, if that word is a prefix of all others
+/// with this prefix; else empty. Empty, too, if \p Known contains \p Word.
 std::string_view closestTo(std::string_view Word,
                            std::span<const std::string> Known);
 
-/// How a message that has named what was expected ends: "; did you mean
-/// front?", or empty if none of \p Known, any range of texts, is near.
+/// The suggestion at the end of a message: "; did you mean front?", or empty if
+/// none of \p Known, any range of strings, is near.
 template <typename Range>
 std::string didYouMean(std::string_view Word, const Range &Known) {
   const std::vector<std::string> Names(std::begin(Known), std::end(Known));

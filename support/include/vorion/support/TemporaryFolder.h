@@ -1,4 +1,4 @@
-/// A folder for as long as somebody needs it.
+/// A temporary folder.
 #pragma once
 
 #include "vorion/support/Environment.h"
@@ -18,8 +18,9 @@
 
 namespace vorion {
 
-/// Below TMPDIR, where nobody else can replace it. It goes with all that is in
-/// it when this does, or where a signal ends a tool (RemovedAtEnd.h).
+/// In TMPDIR, protected from replacement by other users. Removed with its
+/// contents by the destructor, or when a signal terminates the tool
+/// (RemovedAtEnd.h).
 class TemporaryFolder {
 public:
   /// Its name begins with \p Prefix.
@@ -42,7 +43,7 @@ public:
   TemporaryFolder &operator=(TemporaryFolder &&) = delete;
   ~TemporaryFolder() {
     std::error_code Ignored;
-    // A forked process leaves it to its parent.
+    // A forked process does not remove it.
     if (!Path.empty() && Maker == ::getpid())
       std::filesystem::remove_all(Path, Ignored);
   }

@@ -1,4 +1,4 @@
-/// What terminals can show.
+/// Capabilities of terminals.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@ namespace vorion {
 /// if TERM is dumb or missing.
 bool canOverwrite();
 
-/// Whether it shows colours, and nobody asked for none (https://no-color.org).
+/// Whether it shows colours, and NO_COLOR is not set (https://no-color.org).
 bool canColour();
 
-/// The columns of the terminal \p File, a descriptor; nothing for what is none
-/// or does not say. A window's size changes: ask each time.
+/// The width of the terminal \p File, a descriptor, in columns; empty if it is
+/// not a terminal or the width is unknown. Do not cache it, because windows are
+/// resized.
 std::optional<std::size_t> columnsOf(int File);
 
-/// A bar of fixed width of which the share \p Done of \p All is full:
-/// "[====      ]".
+/// A progress bar of fixed width, filled by \p Done / \p All: "[==== ]".
 std::string barText(std::size_t Done, std::size_t All);
 
-/// A time that is left, as people say it: "40 s", "3 min", "2 h 5 min".
+/// A remaining time in human-readable form: "40 s", "3 min", "2 h 5 min".
 std::string durationText(double Seconds);
 
 /// What follows a count in a line of progress: ", 3 min left" at the rate of
