@@ -1,5 +1,5 @@
-/// What a view asks of a machine that draws it tile by tile, whatever the
-/// machine: counts, and no times.
+/// The workload of a view for tile-based rendering, independent of the machine:
+/// counts, not times.
 #pragma once
 
 #include "reference/Render.h"
@@ -11,26 +11,27 @@
 
 namespace vorion::splat {
 
-/// Sides of the square tiles that are compared, px.
+/// Tile sizes that are compared, px.
 inline constexpr std::array<int, 4> AnalyzedTiles = {16, 32, 64, 128};
 /// All supports, in the order of their enumeration.
 inline constexpr std::array<reference::Support, 4> AnalyzedSupports = {
     reference::Support::Exact, reference::Support::Box3,
     reference::Support::Square3, reference::Support::Official16};
 
-/// (Gaussian, tile) pairs for each of \c AnalyzedTiles: how often a Gaussian is
-/// fetched and set up. Official16 has tiles of 16 pixels by definition, and so
-/// the pairs of larger ones are those that hold such a tile.
+/// (Gaussian, tile) pairs for each of \c AnalyzedTiles: the number of fetches
+/// and set-ups of Gaussians. Official16 has tiles of 16 pixels by definition,
+/// so pairs of larger tiles are those that contain such a tile.
 using Invocations = std::array<uint64_t, AnalyzedTiles.size()>;
 
-/// The lists of one tile size.
+/// Statistics of the lists for one tile size.
 struct ListStatistics {
   uint64_t Tiles = 0, Empty = 0, Longest = 0;
   double Mean = 0; ///< entries a tile, empty ones included
-  /// Tiles by length: [0] has none, [k] has 2^(k-1) to 2^k - 1 entries.
+  /// Histogram of list lengths: [0] counts empty lists, [k] lists of 2^(k-1) to
+  /// 2^k - 1 entries.
   std::vector<uint64_t> Histogram;
-  /// [p]: the share of all pixels that are full, so that nothing more is
-  /// blended, once p % of the entries of their own tile's list are done.
+  /// [p]: the fraction of all pixels that are saturated after p % of the
+  /// entries of their tile's list.
   std::array<double, 101> Occluded{};
 };
 
@@ -43,15 +44,14 @@ struct Analysis {
   double MeanTransmittance = 0;
 };
 
-/// Analyzes \p G as \p C sees it. Projection and blending are those of \p O in
-/// fp32, as the device does them, so its counts are these; \c TileSize of \p O
-/// changes nothing.
+/// Analyzes the view \p C of \p G. Projection and blending are those of \p O in
+/// fp32, as on the device, so the counts are equal; \c TileSize of \p O is
+/// ignored.
 Analysis analyze(const reference::Gaussians<float> &G,
                  const reference::Camera<float> &C,
                  const reference::Options &O);
 
-/// How many fewer pairs there are with the last tile size than with the first,
-/// 0 to 1.
+/// Relative reduction of pairs from the first to the last tile size, 0 to 1.
 double reduction(const Invocations &I, std::size_t From, std::size_t To);
 
 } // namespace vorion::splat

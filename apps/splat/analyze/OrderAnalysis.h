@@ -1,4 +1,4 @@
-/// How much of a view hangs on the order of its Gaussians (docs/numerics.md,
+/// Dependence of a view on the blend order of its Gaussians (docs/numerics.md,
 /// "Popping").
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace vorion::splat {
 
-/// One order beside that of a view's own depths of centres.
+/// Another blend order, compared with that by the depths of centres.
 struct OrderChange {
   uint64_t Turned = 0; ///< of \c OrderAnalysis::Pairs
   /// PSNR of the picture in that order, linear with peak 1; infinity if it is
@@ -19,8 +19,8 @@ struct OrderAnalysis {
   OrderChange ByOtherView, AlongRays;
 };
 
-/// Of \p G as \p C sees it, a pinhole: the depths that \p Other gives the
-/// centres, and those along the pixels' own rays. In fp64.
+/// Analyzes the view \p C, a pinhole, of \p G: the order by depths of centres
+/// in the view \p Other, and by depths along the pixels' rays. In fp64.
 OrderAnalysis analyzeOrder(const reference::Gaussians<double> &G,
                            const reference::Camera<double> &C,
                            const reference::Camera<double> &Other,

@@ -1,4 +1,4 @@
-/// From what the readers give to what the reference renders.
+/// Conversion of scenes and options for the reference renderer.
 #pragma once
 
 #include "io/Cameras.h"
@@ -18,10 +18,11 @@ template <typename Real> reference::Camera<Real> toReference(const Camera &C);
 reference::Rules toReference(Rules R);
 reference::Support toReference(Support S);
 
-/// What decides a picture's bits of \p O, its numbers as the device has them.
+/// The options of \p O that affect a picture's bits, with values as on the
+/// device.
 reference::Options toReference(const RenderOptions &O);
 
-/// The defaults, for a scene whose file says \p D.
+/// The defaults, for a scene with the rendering mode \p D.
 reference::Options toReference(const Drawing &D);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// How well a scene shows what photographs show.
+/// Evaluation of a scene on photographs.
 #pragma once
 
 #include "render/Renderer.h"
@@ -10,18 +10,18 @@
 
 namespace vorion::splat {
 
-/// A photograph at the size at which it is judged, and its camera.
+/// A photograph at the resolution of the evaluation, and its camera.
 struct JudgedView {
   const TrainView *View = nullptr;
   bool HeldOut = false;
 };
 
 /// The views of \p Set: held-out ones, and with \p All also those that training
-/// uses; by name. \p Set must outlive them.
+/// uses; in order of names. \p Set must outlive them.
 std::vector<JudgedView> judgedViews(const TrainingSet &Set, bool All);
 
-/// A picture against its photograph. Both are 8-bit values, so that a figure is
-/// that of the picture as a file, and the one that `splat train` prints.
+/// Scores of a picture against its photograph. Both are 8-bit values, so that
+/// scores are those of the picture file, and equal those of `splat train`.
 struct ViewScore {
   std::string Name;
   bool HeldOut = false;
@@ -33,19 +33,20 @@ struct ViewScore {
 
 ViewScore scoreOf(const JudgedView &V, Photo Drawn);
 
-/// Means over views: of a measure that some view lacks there is none.
+/// Means over views; empty for a metric that a view lacks.
 struct MeanScore {
   std::size_t Views = 0;
   double PsnrDb = 0, Ssim = 0;
   std::optional<double> MsSsim;
 };
 
-/// Over all, or over those whose \c HeldOut is \p HeldOut. Nothing of no view.
+/// The mean over all views, or over those whose \c HeldOut is \p HeldOut; empty
+/// without views.
 std::optional<MeanScore> meanOf(const std::vector<ViewScore> &Scores,
                                 std::optional<bool> HeldOut = {});
 
-/// Draws \p S from each of \p Views by \p Plan, which must fit all of them.
-/// Pictures with values that are no numbers are an Error (GuestFailed).
+/// Renders \p S from each of \p Views with \p Plan, which must fit all of them.
+/// Error (GuestFailed): a picture has non-finite values.
 Expected<std::vector<ViewScore>>
 evaluate(Launcher &Launch, const RenderPlan &Plan, const Scene &S,
          const RenderOptions &Options, const std::vector<JudgedView> &Views);

@@ -1,4 +1,4 @@
-/// Pictures beside their photographs: as files, and as a page.
+/// Pictures and their photographs: as files, and as a page.
 #pragma once
 
 #include "eval/Evaluation.h"
@@ -13,7 +13,7 @@ namespace vorion::splat {
 /// scores.html with its script.
 std::string_view scoreTemplate();
 
-/// What a page is about.
+/// Headings of a page.
 struct ScorePage {
   std::string Scene;             ///< its name, for people
   std::vector<std::string> Made; ///< lines for the foot
@@ -25,8 +25,8 @@ Expected<std::string> scorePageOf(const ScorePage &P,
                                   const std::vector<ViewScore> &Scores);
 
 /// Writes two files of each view: PREFIX.NAME.drawn.png and
-/// PREFIX.NAME.photo.png. Several views may come to one NAME (a/b.png,
-/// a_b.jpg): the second of them is NAME-2, and so on.
+/// PREFIX.NAME.photo.png. If several views have the same NAME (a/b.png,
+/// a_b.jpg), the second is NAME-2, and so on.
 Expected<Success> writePairFiles(const std::string &Prefix,
                                  const std::vector<JudgedView> &Views,
                                  const std::vector<ViewScore> &Scores);

@@ -1,4 +1,4 @@
-/// Scores of views for people and for programs.
+/// Scores of views as text, CSV and JSON.
 #pragma once
 
 #include "eval/Evaluation.h"
@@ -8,19 +8,19 @@
 
 namespace vorion::splat {
 
-/// Why LPIPS is in no report.
+/// The reason why reports have no LPIPS.
 inline constexpr const char *NoLpips =
     "LPIPS is not computed: it needs the weights of trained networks, which "
     "are not part of this program";
 
-/// A line a view, and the means.
+/// A line per view, and the means.
 std::string scoreTable(const std::vector<ViewScore> &Scores);
 
-/// RFC 4180, with a line of names; the mean is no part of it.
+/// RFC 4180 with a header line, without the mean.
 std::string scoreCsv(const std::vector<ViewScore> &Scores);
 
-/// "views" and their means; null stands for what is not there, and for the PSNR
-/// of equal pictures, which is infinite.
+/// "views" and their means; null for missing values and for the infinite PSNR
+/// of equal pictures.
 nlohmann::ordered_json scoreJson(const std::vector<ViewScore> &Scores);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// Looking into the bytes of a file.
+/// Access to the bytes of a file.
 #pragma once
 
 #include "vorion/support/Printable.h"
@@ -34,9 +34,9 @@ template <typename T> T load(Bytes B, std::size_t At) {
 
 inline unsigned byteAt(Bytes B, std::size_t At) { return load<uint8_t>(B, At); }
 
-/// The most that \p Encoded bytes of an archive or picture may unpack to:
-/// Deflate cannot exceed 1032:1, and nothing sensible that the other codecs
-/// pack does; small files are let be. Bounds memory by the file's size.
+/// Maximum unpacked size of \p Encoded bytes of an archive or picture: Deflate
+/// cannot exceed 1032:1, and reasonable data of other codecs do not, plus a
+/// constant for small files. Bounds memory by the file's size.
 constexpr std::size_t unpackLimit(std::size_t Encoded) {
   constexpr std::size_t Deflate = 1032, Small = std::size_t(4) << 20;
   return Encoded * Deflate + Small;

@@ -11,7 +11,7 @@
 
 namespace vorion::splat {
 
-/// Largest picture side that is accepted; more is a mistake in the file.
+/// Maximum side of a picture; a larger one is an error in the file.
 inline constexpr int MaxImageSize = 16384;
 
 /// A camera: x right, y down, z forward. Pixel (i, j) covers
@@ -50,27 +50,27 @@ bool isRotation(const std::array<std::array<double, 3>, 3> &R);
 /// (Unsupported.h) are errors, unless they are zero; others are ignored. Every
 /// error names file, record and key.
 Expected<std::vector<Camera>> readCameras(const std::string &Path);
-/// The same of \p Document, which \p Path holds.
+/// The same for \p Document, the contents of \p Path.
 Expected<std::vector<Camera>> parseCameras(const std::string &Path,
                                            const nlohmann::json &Document);
 
-/// Those of \p Cameras, which \p Path has, that are called \p Views: by name,
-/// else by id written as a number, else by a name without folder, or without
-/// folder and ending, that only one has. An unknown view's error lists what
-/// there is.
+/// The cameras of \p Cameras, from \p Path, selected by \p Views: by name, else
+/// by id, else by a unique name without folder, or without folder and
+/// extension. The error for an unknown view lists the available ones.
 Expected<std::vector<Camera>>
 selectCameras(const std::string &Path, const std::vector<Camera> &Cameras,
               const std::vector<std::string> &Views);
 
-/// The camera of \p Path whose img_name is \p View, or else whose id is
-/// \p View written as a number; an unknown view's error lists what there is.
+/// The camera of \p Path with the img_name \p View, or else with the id \p
+/// View; the error for an unknown view lists the available ones.
 Expected<Camera> readCamera(const std::string &Path, const std::string &View);
 
 /// The same for each of \p Views; the file is read once.
 Expected<std::vector<Camera>>
 readCameras(const std::string &Path, const std::vector<std::string> &Views);
 
-/// Writes \p Cameras, with cx and cy, so that reading gives the same doubles.
+/// Writes \p Cameras, with cx and cy, so that reading reproduces the same
+/// doubles.
 Expected<Success> writeCameras(const std::string &Path,
                                const std::vector<Camera> &Cameras);
 

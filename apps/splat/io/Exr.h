@@ -1,4 +1,4 @@
-/// Pictures and depths as OpenEXR has them.
+/// Pictures and depths in OpenEXR files.
 #pragma once
 
 #include "io/Bytes.h"
@@ -8,14 +8,13 @@
 
 namespace vorion::splat {
 
-/// Reads the colour and, where it has one, the alpha of a still picture. Its
-/// size is that of the display window; what lies outside the data window is 0.
-/// Values stay as the file has them, of 16 or 32 bits. Deep pictures, those
-/// without R, G and B, and those whose channels have fewer pixels than others
-/// are errors.
+/// Reads the colour and, if present, the alpha of a picture. Its size is that
+/// of the display window; pixels outside the data window are 0. Values of 16 or
+/// 32 bits are not converted. Errors: deep data, no R, G and B, subsampled
+/// channels.
 Expected<ExactImage> decodeExr(const std::string &Where, Bytes File);
 
-/// \p I with every value as it is; as 16-bit floats if \p Half.
+/// \p I with unmodified values; as 16-bit floats if \p Half.
 Expected<std::string> encodeExr(const Image &I, bool Half);
 
 /// \p D as the channel Z, and where there is alpha, that as A, in 32 bits.

@@ -14,21 +14,21 @@ namespace vorion::splat {
 
 bool isGzip(Bytes File);
 
-/// \p Content, of less than 4 GiB, as one gzip stream. The same bits on every
-/// host with the same zlib.
+/// \p Content, of less than 4 GiB, as one gzip stream. Deterministic on all
+/// hosts with the same zlib.
 std::string gzipOf(const std::string &Content);
 
-/// Unpacks a file that is one gzip stream as far as it is asked for, so that
-/// what comes first can say how much there is to be.
+/// Unpacks a gzip file incrementally, so that a header can determine the
+/// expected size.
 class GzipReader {
 public:
   /// Views \p File, which must outlive it.
   static Expected<GzipReader> open(const std::string &Where, Bytes File);
 
-  /// The next \p Size bytes, or fewer where the stream ends. Memory is taken
-  /// for no more than Deflate can have packed into the file.
+  /// The next \p Size bytes, or fewer at the end of the stream. Memory is
+  /// limited to the maximum that Deflate can pack into the file.
   Expected<std::vector<std::byte>> read(std::size_t Size);
-  /// That nothing follows, in the stream or behind it, and its checksum.
+  /// Checks that the stream and the file end here, and the checksum.
   Expected<Success> finish();
 
 private:

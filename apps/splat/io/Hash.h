@@ -8,11 +8,11 @@
 
 namespace vorion::splat {
 
-/// fnv1a64() of all of \p File; an Error if it cannot be read.
+/// fnv1a64() of the contents of \p File; Error: it cannot be read.
 Expected<std::string> hashFile(const std::string &File);
 
-/// Of a scene: of the file, or of the names and contents of all files in a
-/// folder, in the order of their names; a .json file stands for its folder.
+/// Hash of a scene: of the file, or of the names and contents of all files in a
+/// folder, in the order of their names; a .json file represents its folder.
 Expected<std::string> hashScene(const std::string &Path);
 
 } // namespace vorion::splat

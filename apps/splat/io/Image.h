@@ -1,4 +1,4 @@
-/// Pictures in and out: floats, and 8 bits for people.
+/// Reading and writing of pictures: floats and 8 bits.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -28,7 +28,8 @@ template <typename Real> struct BasicImage {
 };
 
 using Image = BasicImage<float>;
-/// As files may have them: the fp64 reference's would be rounded in an Image.
+/// A picture in double precision, because an Image would round the fp64
+/// reference's.
 using ExactImage = BasicImage<double>;
 
 /// 8-bit value of a channel: clamped to [0, 1], rounded to nearest; NaN is 0.
@@ -43,44 +44,43 @@ Expected<Success> writePng(const std::string &Path, const Image &I);
 /// PFM ("PF", little endian, rows from the bottom as the format has them).
 Expected<Success> writePfm(const std::string &Path, const Image &I);
 
-/// How deep a picture is, rows from the top.
+/// Depths of a picture, rows from the top.
 struct DepthMap {
   int Width = 0, Height = 0;
-  /// The sum of weights times depths (camera z) of each pixel; over alpha it is
-  /// the mean depth of what is seen there.
+  /// The sum of weights times depths (camera z) of each pixel; divided by alpha
+  /// it is the weighted mean depth.
   std::vector<float> Depth;
   std::vector<float> Alpha; ///< the sum of weights
 };
 
-/// By the ending of \p Path: .npz with `depth` and `alpha` (H, W), float32, or
-/// .pfm ("Pf", else as \c writePfm) with the first alone.
+/// Writes by the extension of \p Path: .npz with `depth` and `alpha` (H, W),
+/// float32, or .pfm ("Pf", else as \c writePfm) with the first alone.
 Expected<Success> writeDepth(const std::string &Path, const DepthMap &D);
 
 /// NPZ with `render` (H, W, 3) and `alpha` (H, W), float32.
 Expected<Success> writeImageNpz(const std::string &Path, const Image &I);
 
-/// The endings of files of pictures, for writing and reading.
+/// The extensions of picture files, for writing and reading.
 const std::vector<std::string_view> &pictureEndings();
 
-/// What there is to choose of some formats.
+/// Encoding options of some formats.
 struct PictureFormat {
-  /// 1 to 100: of a JPEG, 95 if nothing, and of a WebP, which keeps every byte
-  /// if nothing.
+  /// 1 to 100, for JPEG (default 95) and WebP (default: lossless).
   std::optional<int> Quality;
   bool Half = false; ///< an EXR has floats of 16 bits, not of 32
 };
 
-/// Writes by the ending of \p Path, one of pictureEndings().
+/// Writes by the extension of \p Path, one of pictureEndings().
 Expected<Success> writeImage(const std::string &Path, const Image &I,
                              const PictureFormat &F = {});
 
-/// The longest side of a picture that is read, px.
+/// Maximum side of a picture that is read, px.
 inline constexpr int MaxPictureSide = 1 << 15;
 
-/// Reads by the ending of \p Path, in whatever case: a .pfm or .exr; `render`
-/// and, where present, `alpha` of an .npz (float32 or float64; neither is
-/// rounded); of .png, .jpg and .webp 8-bit values over black, as 0 to 1, and
-/// alpha where it is not all opaque.
+/// Reads by the extension of \p Path, case-insensitively: a .pfm or .exr;
+/// `render` and, where present, `alpha` of an .npz (float32 or float64, without
+/// rounding); for .png, .jpg and .webp 8-bit values over black, as 0 to 1, and
+/// alpha if it is not opaque everywhere.
 Expected<ExactImage> readImage(const std::string &Path);
 
 } // namespace vorion::splat

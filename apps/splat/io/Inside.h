@@ -1,4 +1,4 @@
-/// Names of other files, as files have them.
+/// File names in other files.
 #pragma once
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 
 namespace vorion::splat {
 
-/// Whether \p Name, which a file of a folder gives, can only name what lies in
-/// that folder (links in it apart, which are its owner's). One with a `..` is
-/// refused even where it would come back: behind a link it need not.
+/// Whether \p Name, found in a file of a folder, refers to a file inside that
+/// folder (apart from symbolic links, which are trusted). A name with `..` is
+/// rejected even if it leads back, because after a link it may not.
 inline bool staysInside(const std::string &Name) {
   const std::filesystem::path Path(Name);
   if (Name.empty() || Name.find('\0') != std::string::npos ||
@@ -21,7 +21,7 @@ inline bool staysInside(const std::string &Name) {
   return true;
 }
 
-/// \p Name, in which there may be folders, as the name of one file.
+/// \p Name, which may have folders, converted to a plain file name.
 inline std::string asFileName(std::string Name) {
   std::ranges::replace(Name, '/', '_');
   return Name;

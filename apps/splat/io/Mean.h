@@ -6,7 +6,7 @@
 
 namespace vorion::splat {
 
-/// In the order of \p Values; not a number where there are none.
+/// Summed in the order of \p Values; NaN if there are none.
 inline double meanOf(std::span<const double> Values) {
   return std::accumulate(Values.begin(), Values.end(), 0.0) /
          static_cast<double>(Values.size());

@@ -8,7 +8,7 @@
 
 namespace vorion::splat {
 
-/// What the beginning of a .npy file says of the array behind it.
+/// The header of a .npy file.
 struct NpyHeader {
   std::string Type; ///< as NpyArray has it
   std::vector<std::size_t> Shape;
@@ -17,7 +17,7 @@ struct NpyHeader {
   std::size_t Size = 0;   ///< of all elements, bytes
 };
 
-/// As many bytes hold every header that is read.
+/// Maximum size in bytes of a header that is read.
 inline constexpr std::size_t MostNpyStart = std::size_t{1} << 17;
 
 /// Reads the header of a file that begins with \p Start.

@@ -42,19 +42,19 @@ struct NpyArray {
 
 using Npz = std::map<std::string, NpyArray>;
 
-/// An array before it is unpacked.
+/// Type and shape of an array that is not yet unpacked.
 struct NpyShape {
   std::string Type;               ///< as NpyArray has it
   std::vector<std::size_t> Shape; ///< likewise
 
-  /// How many numbers there are; of text, none.
+  /// Number of elements; 0 for text.
   std::size_t numbers() const;
 };
 
-/// A file whose arrays are unpacked one by one: they may be a thousand times as
-/// large as the file, and a reader knows by their shapes what it does not want.
-/// Refused with the reason: what is no zip archive, big endian, element types
-/// not listed above, sizes that do not match the shape.
+/// A file whose arrays are unpacked individually, because they may be a
+/// thousand times as large as the file, and a reader can reject them by their
+/// shapes. Errors: not a zip archive, big endian, element types not listed
+/// above, sizes that do not match the shape.
 class NpzFile {
 public:
   static Expected<NpzFile> open(const std::string &Path);
@@ -62,7 +62,7 @@ public:
   ~NpzFile();
 
   const std::map<std::string, NpyShape> &shapes() const;
-  /// That of the array \p Name; null if there is none.
+  /// Shape of the array \p Name; null if there is none.
   const NpyShape *find(const std::string &Name) const;
   /// The array \p Name, one of shapes(). Fortran order becomes C order.
   Expected<NpyArray> read(const std::string &Name);

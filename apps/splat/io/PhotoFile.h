@@ -17,16 +17,17 @@ struct PhotoSize {
 /// The size that the header of a PNG, JPEG or WebP states.
 Expected<PhotoSize> photoSize(const std::string &Where, Bytes File);
 
-/// Decodes one to 8-bit r, g, b, a (opaque where the file has no alpha; 16-bit
-/// PNGs are rounded to 8). Told by the content. Damaged, cut or CMYK files are
-/// errors; values stay in the file's colour space, sRGB by custom.
+/// Decodes a picture to 8-bit r, g, b, a (opaque if the file has no alpha;
+/// 16-bit PNGs are rounded to 8). The format is recognized by content. Errors:
+/// damaged, truncated or CMYK files. The colour space is not converted; by
+/// convention it is sRGB.
 Expected<Plane> decodePhoto(const std::string &Where, Bytes File);
 
-/// \p Rgb has three bytes a pixel, rows from the top. \p Quality is 1 to 100;
-/// colours have every pixel's.
+/// \p Rgb has three bytes per pixel, rows from the top. \p Quality is 1 to 100;
+/// chroma is not subsampled.
 Expected<std::string> encodeJpeg(const unsigned char *Rgb, int Width,
                                  int Height, int Quality);
-/// The same as WebP; without a quality every byte is kept.
+/// The same as WebP; lossless without a quality.
 Expected<std::string> encodeWebP(const unsigned char *Rgb, int Width,
                                  int Height, std::optional<int> Quality);
 

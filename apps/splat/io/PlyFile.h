@@ -1,4 +1,4 @@
-/// The rows of a PLY file, whatever its encoding is.
+/// The rows of a PLY file in any encoding.
 #pragma once
 
 #include "io/PlyHeader.h"
@@ -7,12 +7,12 @@
 
 namespace vorion::splat {
 
-/// A PLY whose rows are seen as little-endian binary. Rows of an element with
-/// lists are checked for being there, and passed over.
+/// A PLY with access to its rows as little-endian binary. Rows of an element
+/// with lists are validated and skipped.
 class PlyFile {
 public:
-  /// Rows of little-endian binary are seen where they lie, so \p File must live
-  /// as long as this.
+  /// Rows of a little-endian binary file are not copied, so \p File must
+  /// outlive this.
   PlyFile(PlyHeader Header, Bytes File)
       : Header(std::move(Header)), Rows(File) {}
   PlyFile(PlyHeader Header, std::vector<std::byte> Converted)
@@ -40,9 +40,10 @@ inline float loadReal(Bytes Row, PlyReal At) {
                      : load<float>(Row, At.Offset);
 }
 
-/// Reads a PLY; \p File holds exactly the rows that its header declares, or the
-/// result is an error. Errors of the header and of text name the line. Memory
-/// follows the file's size: rows of text take at most four times as much.
+/// Reads a PLY. Error: \p File does not contain exactly the rows that its
+/// header declares. Errors in the header and in text name the line. Memory is
+/// proportional to the file's size: rows of text take at most four times as
+/// much.
 Expected<PlyFile> readPly(const std::string &Where, Bytes File);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// The header of a PLY file: its elements and where their properties lie.
+/// The header of a PLY file: its elements, and the offsets of their properties.
 #pragma once
 
 #include "io/Bytes.h"
@@ -29,7 +29,7 @@ struct PlyProperty {
   std::size_t Offset = 0;           ///< in each row, if the element has no list
 };
 
-/// Where a row has a real number, and of which of the two types it is.
+/// Offset and type (float or double) of a number in a row.
 struct PlyReal {
   std::size_t Offset;
   bool IsDouble;
@@ -73,12 +73,11 @@ private:
   std::map<std::string, std::size_t, std::less<>> Places; ///< in Elements
 };
 
-/// Whether \p File begins as PLYs do.
+/// Whether \p File has the magic bytes of PLY.
 inline bool isPlyFile(Bytes File) { return hasMark(FileKind::Ply, File); }
 
-/// Reads the header of a PLY; what follows it is not looked at. Errors name the
-/// line. A header may declare any number of things, so nothing here looks
-/// through all of them for each.
+/// Parses the header of a PLY. Errors name the line. Runs in linear time,
+/// because a header may declare any number of elements and properties.
 Expected<PlyHeader> readPlyHeader(const std::string &Where, Bytes File);
 
 } // namespace vorion::splat

@@ -1,5 +1,5 @@
-/// What files may call for that nothing here does. Ignoring it would draw
-/// another picture than the file's, so readers refuse it by name.
+/// Unsupported features of files. Ignoring them would render a wrong picture,
+/// so readers reject them by name.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,12 +9,12 @@
 
 namespace vorion::splat {
 
-/// What a PLY's property \p Name would mean for the picture; nothing if it is
-/// not known to mean anything ("nx", "label").
+/// The feature that a PLY's property \p Name stands for; empty if it does not
+/// affect the picture ("nx", "label").
 std::optional<std::string_view> unsupportedProperty(std::string_view Name);
 
-/// Which key of \p Record, a camera's, calls for what nothing here does, and
-/// what that is; keys whose value is zero, false or empty call for nothing.
+/// The key of \p Record, a camera, that requires an unsupported feature, and
+/// the feature; keys whose value is zero, false or empty are ignored.
 std::optional<std::string> unsupportedIn(const nlohmann::json &Record);
 
 } // namespace vorion::splat

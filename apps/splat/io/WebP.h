@@ -21,23 +21,23 @@ struct Plane {
   }
 };
 
-/// Decodes a still WebP of at most \p Limit bytes unpacked; a lossy one too,
-/// as nothing in it says that it holds data.
+/// Decodes a still WebP of at most \p Limit bytes unpacked, including a lossy
+/// one, because the file does not record that it contains data.
 Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
                            std::size_t Limit);
 
 /// \name The same in two steps, of which the second may run in any thread
 /// @{
-/// The plane that \p File needs, without bytes as yet.
+/// The plane for \p File, without contents.
 Expected<Plane> planeForWebP(const std::string &Where, Bytes File,
                              std::size_t Limit);
-/// Fills in \p P, which planeForWebP() gave for \p File.
+/// Decodes \p File to \p P, the result of planeForWebP().
 Expected<Success> decodeWebPInto(const std::string &Where, Bytes File,
                                  Plane &P);
 /// @}
 
-/// A lossless WebP of \p P, whose sides have at most 14 bits. Colours stay,
-/// too, where alpha is 0. Equal planes make equal bytes.
+/// A lossless WebP of \p P, whose sides have at most 14 bits. Colours are
+/// preserved where alpha is 0. Deterministic.
 Expected<std::string> encodeWebP(const Plane &P);
 
 } // namespace vorion::splat

@@ -16,7 +16,7 @@ namespace vorion::splat {
 
 bool isZip(Bytes File);
 
-/// Views the bytes that it was opened on, which must outlive it.
+/// Does not copy the bytes of the archive, which must outlive it.
 class ZipArchive {
 public:
   /// \p What names the kind of file in messages, as "an .npz archive".
@@ -26,14 +26,14 @@ public:
   uint64_t entries() const;
   /// The name of an entry; empty if it has none.
   std::string name(uint64_t Entry) const;
-  /// The number of the entry called \p Name.
+  /// The index of the entry \p Name.
   Expected<uint64_t> find(const std::string &Name) const;
-  /// How many bytes of the archive an entry takes by the directory.
+  /// Compressed size of an entry in bytes, from the directory.
   uint64_t packedSize(uint64_t Entry) const;
-  /// The content of an entry, checksum included, which is of \p Most bytes at
-  /// most. What the directory claims of its size is only believed if it is too
-  /// large, and of all entries that are read no more than \c unpackLimit of the
-  /// archive's size: several may stand for the same bytes.
+  /// The content of an entry of at most \p Most bytes, with a check of the
+  /// checksum. The size in the directory is not trusted, and the total of all
+  /// entries is limited to \c unpackLimit of the archive's size, because
+  /// several entries may refer to the same bytes.
   Expected<std::vector<std::byte>> read(uint64_t Entry, std::size_t Most);
   /// The first \p Most bytes of it, or all if it is shorter.
   Expected<std::vector<std::byte>> readStart(uint64_t Entry, std::size_t Most);
@@ -57,8 +57,7 @@ private:
   std::unique_ptr<zip, Discard> Handle;
 };
 
-/// The bytes of an archive of \p Entries, names and contents. Equal entries
-/// make equal bytes.
+/// An archive of \p Entries, names and contents. Deterministic.
 Expected<std::string>
 makeZip(const std::string &Where,
         const std::map<std::string, std::string> &Entries);

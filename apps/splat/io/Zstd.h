@@ -9,8 +9,8 @@
 
 namespace vorion::splat {
 
-/// Unpacks \p Frame, one whole frame, to exactly \p Size bytes. Memory is taken
-/// for no more than \c unpackLimit of the frame, whatever \p Size claims.
+/// Unpacks \p Frame, one complete frame, to exactly \p Size bytes. Memory is
+/// limited to \c unpackLimit of the frame, whatever \p Size is.
 Expected<std::vector<std::byte>> unpackZstd(const std::string &Where,
                                             Bytes Frame, std::size_t Size);
 

@@ -1,5 +1,5 @@
-/// Charts as SVG, in the look of the pages: for documents, and for whatever
-/// shows no page.
+/// Charts as SVG, in the style of the pages, for documents and standalone
+/// files.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct ChartSeries {
 struct Chart {
   std::string Title, XLabel, YLabel;
   std::vector<std::string> Places; ///< along x, evenly spaced
-  /// Only every so many places get a label.
+  /// Interval of labelled positions.
   std::size_t LabelEvery = 1;
   std::vector<ChartSeries> Series;
   bool Bars = false;             ///< side by side, else lines
@@ -30,9 +30,8 @@ struct Chart {
   double NumbersEnd = 0;
 };
 
-/// A document of 760 units' width, light or dark as its reader's settings say.
-/// The y axis starts at 0 and ends at a round number that is not below any
-/// value.
+/// An SVG document of 760 units width, light or dark by the reader's settings.
+/// The y axis is from 0 to a round number that is not below any value.
 std::string svgOf(const Chart &C);
 
 /// look.css, whose colours charts have.

@@ -1,4 +1,4 @@
-/// Pages of HTML: each one file that needs no other and no network.
+/// Self-contained HTML pages.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,15 +7,15 @@
 
 namespace vorion::splat {
 
-/// The library that draws charts, with its licence.
+/// The chart library, with its licence.
 std::string_view chartLibrary();
 
-/// \p Template, which EmbedPages.cmake made, with \p Data and the library where
-/// it says @DATA@ and @LIBRARY@.
+/// \p Template of EmbedPages.cmake, with @DATA@ and @LIBRARY@ replaced by \p
+/// Data and the library.
 std::string filledPage(std::string_view Template,
                        const nlohmann::ordered_json &Data);
 
-/// The \p Bytes of a PNG, as a page names them.
+/// A data URI of the \p Bytes of a PNG.
 std::string pngUri(const std::string &Bytes);
 
 } // namespace vorion::splat

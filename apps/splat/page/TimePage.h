@@ -1,4 +1,4 @@
-/// The page that shows where the time of a frame goes, of one run or of two.
+/// The page with the breakdown of the frame time of one run or two.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -16,8 +16,8 @@ std::string_view timeTemplate();
 /// A run that the page shows.
 struct TimeRun {
   std::string Name; ///< of the file, for people
-  /// What `splat render --json` wrote with the clock on, for one view; its
-  /// "heat_map" is shown where it has one.
+  /// The report of `splat render --time --json` for one view; its "heat_map" is
+  /// shown if present.
   nlohmann::ordered_json Report;
   std::string Picture; ///< PNG; empty for none
 };

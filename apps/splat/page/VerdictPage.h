@@ -1,5 +1,5 @@
-/// The page of an answer: one sentence, then the pictures and tables that it
-/// rests on.
+/// The page of an answer: one sentence, then the supporting pictures and
+/// tables.
 #pragma once
 
 #include "page/Chart.h"
@@ -24,7 +24,7 @@ struct PagePictures {
   std::vector<PagePicture> Pictures; ///< beside each other
 };
 
-/// The same for people, programs and pages.
+/// An answer as text, JSON and page.
 struct AnswerTable {
   std::string Title;
   std::string Note; ///< may be empty
@@ -32,8 +32,8 @@ struct AnswerTable {
   std::vector<std::vector<std::string>> Rows; ///< as many cells as columns
 };
 
-/// For a terminal: the first and the last column to the left, the others to the
-/// right.
+/// Text for a terminal: the first and the last column are left-aligned, the
+/// others right-aligned.
 std::string toString(const AnswerTable &T);
 
 struct VerdictPage {

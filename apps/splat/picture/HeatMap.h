@@ -1,4 +1,4 @@
-/// Where in a picture the rasterizers' work is, tile by tile.
+/// Maps of the rasterizers' work per tile of a picture.
 #pragma once
 
 #include "device/TileWork.h"
@@ -19,11 +19,11 @@ inline constexpr std::array Heats{Heat::List, Heat::Blends, Heat::Cycles,
 std::string_view name(Heat H);
 /// Saturation is in per cent of the pixels.
 double valueOf(const TileWork &T, Heat H);
-/// The value of the brightest colour; that of the darkest is 0. Saturation's
-/// is 100, that of the others the largest of \p Tiles.
+/// The maximum of the colour scale, which starts at 0: 100 for saturation, else
+/// the maximum over \p Tiles.
 double scaleOf(const std::vector<TileWork> &Tiles, Heat H);
 
-/// The colour of a value that is \p Share of the scale: from dark to bright.
+/// The colour of the fraction \p Share of the scale, from dark to bright.
 std::array<float, 3> heatColour(double Share);
 
 /// A picture of \p Width times \p Height pixels in which every tile has the

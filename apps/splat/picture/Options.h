@@ -1,4 +1,4 @@
-/// What a render is asked to do, as the command line names it.
+/// Options of a rendering, named as on the command line.
 #pragma once
 
 #include "io/CameraModel.h"
@@ -13,15 +13,15 @@
 
 namespace vorion::splat {
 
-/// The public 3DGS convention that is followed.
+/// The rendering convention.
 enum class Rules { Inria, Gsplat };
-/// Which pixels a Gaussian may reach.
+/// Rule for the pixels that a Gaussian covers.
 enum class Support { Exact, Box3, Square3, Official16 };
-/// Who blends: the rasterizer, or the cores alone.
+/// Unit that blends: the rasterizer or the cores.
 enum class Path { Raster, Simt };
 
-/// How tiles are dealt to the rasterizers: by the lengths of their lists, or by
-/// what they were to the rasterizers in the last picture.
+/// Distribution of tiles to the rasterizers: by the lengths of their lists, or
+/// by their cost in the previous picture.
 enum class Dealing { Lists, LastFrame };
 
 /// How a Gaussian becomes an ellipse on the picture: by the camera's Jacobian
@@ -55,7 +55,7 @@ constexpr std::string_view name(Path P) {
 /// Whether the cores' path has \p E.
 constexpr bool isOnCores(ExpUnit E) { return !kernelOf(E).empty(); }
 
-/// The least depth that is drawn: beyond it by INRIA's rules, from it on by
+/// Depth of the near plane: exclusive with INRIA's rules, inclusive with
 /// gsplat's.
 constexpr float nearLimit(Rules R) { return R == Rules::Inria ? 0.2F : 0.01F; }
 
@@ -68,18 +68,18 @@ struct RenderOptions {
   Path Blending = Path::Raster;
   ExpUnit Exponential = ExpUnit::Exact;
   BlendUnit Arithmetic = BlendUnit::Fp32;
-  /// The smallest alpha that is blended, in 1/255: 1, 2, 4 or 8.
+  /// Minimum alpha that is blended, in units of 1/255: 1, 2, 4 or 8.
   unsigned AlphaCutoff = 1;
   /// What the cameras are; pinholes among OpenCV's count as such.
   const LensModel *Optics = CameraModel().Model;
   Spread Through = Spread::Jacobian;
   /// Whether a camera moves while it exposes.
   bool Rolling = false;
-  /// Least depth that is drawn; nothing: the rules' own.
+  /// Depth of the near plane; empty: that of the rules.
   std::optional<float> Near;
-  /// Leading bits of the depths that decide the order: 1 to 32.
+  /// Number of leading depth bits in the sort key: 1 to 32.
   unsigned DepthBits = 32;
-  /// Spherical harmonics of higher bands are left out.
+  /// Maximum degree of spherical harmonics.
   int ShLimit = 3;
   bool Antialiased = false;
   /// What decided that: an option, or what the scene's file says; empty where
@@ -88,16 +88,16 @@ struct RenderOptions {
   /// Added to both variances on the picture, px^2: both conventions' low-pass.
   float Dilation = 0.3F;
   std::array<float, 3> Background{0, 0, 0};
-  /// A pixel is full when its transmittance would fall below this: [0, 1).
+  /// A pixel is saturated when its transmittance would fall below this: [0, 1).
   float Cutoff = 1e-4F;
-  /// Blocks of Gaussians that a pinhole sees nothing of are left out whole.
+  /// Culls blocks of Gaussians outside a pinhole's frustum.
   bool CullBlocks = false;
 
   /// \name The rasterizers' path
   /// @{
-  /// Side of a tile, px: 16, 32 or 64.
+  /// Tile size, px: 16, 32 or 64.
   unsigned RasterTile = 64;
-  /// Depth parts of each tile's list, blended apart and merged: 1 to
+  /// Depth segments of each tile's list, blended independently and merged: 1 to
   /// MaxZTiles.
   unsigned ZTiles = 1;
   TailRule PixelUnit;
@@ -110,12 +110,12 @@ struct RenderOptions {
   unsigned SimtTile = 16;
   unsigned SimtGroup = 256;
   PixelOrder Order = PixelOrder::Depth;
-  /// Gaussians that a pixel takes from its list at a time, the nearest along
+  /// Gaussians that a pixel selects per pass over its list, the nearest along
   /// its ray: 4, 8 or 16.
   unsigned RayWindow = 16;
   /// @}
 
-  /// Draw so that gradients can be taken back: smaller tiles of the rasterizer
+  /// Render for a backward pass: smaller tiles of the rasterizer
   /// (docs/rasterizer.md, "The backward mode"), last contributors kept.
   bool Training = false;
 
@@ -134,7 +134,7 @@ struct RenderOptions {
   }
 };
 
-/// Draws as the scene's file says, or the user against it.
+/// Applies the rendering mode of the scene's file, or the user's override.
 void drawAs(RenderOptions &O, const Drawing &D);
 
 } // namespace vorion::splat

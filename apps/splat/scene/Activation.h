@@ -1,4 +1,4 @@
-/// From stored parameters to the ones that are rendered.
+/// Activation of stored parameters.
 #pragma once
 
 #include "scene/Scene.h"
@@ -7,19 +7,19 @@
 
 namespace vorion::splat {
 
-/// Activated parameters in precision \p Real, laid out as in \c Scene. The
-/// quaternions are of unit length: INRIA's rules normalise before the kernel,
-/// and gsplat's, which normalise inside, give the same picture. A zero
-/// quaternion stays zero, which both treat as no rotation.
+/// Activated parameters in precision \p Real, laid out as in \c Scene.
+/// Quaternions are normalized: INRIA's rules normalize before the kernel, and
+/// gsplat's, which normalize inside, give the same picture. A zero quaternion
+/// remains zero, which both treat as the identity.
 template <typename Real> struct Activated {
   std::vector<Real> Scales;    ///< 3 each, standard deviations
   std::vector<Real> Quats;     ///< 4 each: w, x, y, z
   std::vector<Real> Opacities; ///< 1 each, 0 to 1
 };
 
-/// Activates \p S. The arithmetic is done in double and rounded once to
-/// \p Real, so that every host gives the device the same fp32 bits, and the
-/// reference run in fp32 starts from these bits too.
+/// Activates \p S. Computed in double and rounded once to \p Real, so that the
+/// fp32 inputs of the device are the same on every host and equal those of the
+/// fp32 reference.
 template <typename Real> Activated<Real> activate(const Scene &S);
 
 /// The logit that is activated to \p Opacity (0 to 1), at most 30 either way so

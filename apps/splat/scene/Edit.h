@@ -1,4 +1,4 @@
-/// What is done to scenes before they are written: moved, cut, joined.
+/// Edits of scenes: transforms, filters, merging.
 #pragma once
 
 #include "scene/Scene.h"
@@ -25,19 +25,21 @@ struct Similarity {
 std::array<std::array<double, 3>, 3>
 rotationOf(const std::array<double, 3> &Degrees);
 
-/// Moves \p S: means, sizes, rotations, and harmonics, so that a camera that is
-/// moved with it sees the same. Computed in double and rounded once.
+/// Transforms \p S: means, scales, rotations, and spherical harmonics, so that
+/// an equally transformed camera has the same view. Computed in double and
+/// rounded once.
 void transform(Scene &S, const Similarity &By);
 
 /// Multiplies lengths along each axis by \p Factors, which are above 0:
-/// Gaussians become those of the stretched covariance. Harmonics stay.
+/// Gaussians have the transformed covariance. Spherical harmonics are
+/// unchanged.
 void stretch(Scene &S, const std::array<double, 3> &Factors);
 
-/// Keeps the Gaussians, by number, for which \p Keep holds, in their order;
-/// gives how many went.
+/// Keeps the Gaussians whose index satisfies \p Keep, in order; returns the
+/// number of dropped ones.
 std::size_t keepOnly(Scene &S, const std::function<bool(std::size_t)> &Keep);
 
-/// Adds or drops bands of harmonics; new ones are zeros.
+/// Changes the SH degree; new coefficients are 0.
 void setShDegree(Scene &S, int Degree);
 
 /// Appends all of \p From, at the larger degree of the two.

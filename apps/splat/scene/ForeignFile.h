@@ -1,5 +1,5 @@
-/// Files that are no scenes: what each is (FileKind.h), and how its owner may
-/// come to a scene.
+/// Errors for files that are not scenes: their kind (FileKind.h), and a hint
+/// how to get a scene.
 #pragma once
 
 #include "io/Bytes.h"
@@ -12,19 +12,18 @@
 
 namespace vorion::splat {
 
-/// Of \p File, which no format of Formats.def takes for its own: why it is no
-/// scene; nothing if it may be a `.splat`, which has no mark. Any text is known
-/// to be none.
+/// The error for \p File, which no format of Formats.def recognizes; empty if
+/// it may be a `.splat`, which has no magic bytes. Text is never a `.splat`.
 std::optional<Error> foreignFile(const std::string &Where, Bytes File);
 
-/// The same for a zip archive of \p Names that is no SOG.
+/// The same for a zip archive of \p Names that is not a SOG.
 Error foreignArchive(const std::string &Where,
                      const std::vector<std::string> &Names);
 
-/// The same for what is written in JSON and describes no scene.
+/// The same for JSON that does not describe a scene.
 Error foreignJson(const std::string &Where, const nlohmann::json &Root);
 
-/// The same for a file of which nothing is known.
+/// The same for a file of unknown kind.
 Error unknownFile(const std::string &Where);
 
 } // namespace vorion::splat

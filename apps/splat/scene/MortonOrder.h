@@ -1,4 +1,4 @@
-/// Gaussians that are neighbours in space as neighbours in memory.
+/// Spatial sorting of Gaussians for locality in memory.
 #pragma once
 
 #include "scene/Scene.h"
@@ -7,11 +7,11 @@
 
 namespace vorion::splat {
 
-/// Puts the Gaussians of \p S in the order of their means along a Morton curve
-/// (Z-order curve), and gives how many are in another place then. The curve
-/// goes through a cube around all means, in 2^21 steps an axis. x changes
-/// fastest. Means of one step keep their order, so that a second call changes
-/// nothing. All means are finite.
+/// Sorts the Gaussians of \p S by the Morton codes (Z-order curve) of their
+/// means, and returns the number of Gaussians whose index changed. The curve
+/// fills the bounding cube of all means, with 2^21 steps per axis; x is the
+/// least significant. The sort is stable, so that a second call changes
+/// nothing. All means must be finite.
 std::size_t putInMortonOrder(Scene &S);
 
 } // namespace vorion::splat

@@ -7,8 +7,8 @@ namespace vorion::splat {
 
 using Quaternion = std::array<double, 4>; ///< w, x, y, z
 
-/// Of the rotation \p R (rows), by its largest component; of length 1 as far
-/// as R's rows are.
+/// The quaternion of the rotation \p R (rows), computed by its largest
+/// component; normalized to the accuracy of R.
 Quaternion quaternionOf(const std::array<std::array<double, 3>, 3> &R);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// A 3D Gaussian scene as the trainers store it: parameters before activation.
+/// A 3D Gaussian scene as stored by trainers: parameters before activation.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -17,8 +17,8 @@ constexpr std::size_t shCoefficients(int ShDegree) {
   return static_cast<std::size_t>(ShDegree + 1) * (ShDegree + 1);
 }
 
-/// The degree whose coefficients after the constant one are \p Later in each
-/// of the channels; -1 if there is none.
+/// The degree with \p Later coefficients per channel above degree 0; -1 if
+/// there is none.
 constexpr int shDegreeOf(std::size_t Later) {
   for (int Degree = 0; Degree <= MaxShDegree; ++Degree)
     if (shCoefficients(Degree) - 1 == Later)
@@ -26,11 +26,11 @@ constexpr int shDegreeOf(std::size_t Later) {
   return -1;
 }
 
-/// Y_00: what the constant coefficient is multiplied by.
+/// Y_00, the factor of the coefficient of degree 0.
 inline constexpr double ShC0 = 0.28209479177387814;
 
-/// \c size() Gaussians, one array a parameter. World units are those of the
-/// file; nothing is flipped or scaled on reading.
+/// \c size() Gaussians, one array per parameter. World units are those of the
+/// file, without conversion.
 struct Scene {
   int ShDegree = 0;                 ///< 0 to MaxShDegree
   std::vector<float> Means;         ///< 3 each: x, y, z
@@ -43,17 +43,17 @@ struct Scene {
   /// Coefficients of each channel.
   std::size_t coefficients() const { return shCoefficients(ShDegree); }
 
-  /// \p Count Gaussians of zeros, to be filled in. A reader calls it only
-  /// after it has seen that its file is large enough for so many.
+  /// \p Count zero-initialized Gaussians. A reader must first check that its
+  /// file is large enough for this number.
   static Scene sized(std::size_t Count, int ShDegree);
 };
 
-/// The first Gaussian with a NaN or an infinity is an error; none may reach
-/// the renderers, whose comparisons would go either way.
+/// Error: a Gaussian has a NaN or an infinity, for which the comparisons of
+/// renderers are undefined.
 Expected<Success> checkFinite(const std::string &Where, const Scene &S);
 
-/// Leaves out the Gaussians with a NaN or an infinity, in the order of the
-/// others, and gives how many there were.
+/// Drops the Gaussians with a NaN or an infinity, preserves the order of the
+/// others, and returns the number of dropped ones.
 std::size_t dropNonFinite(Scene &S);
 
 /// Copies \p Count Gaussians of \p From, starting at \p First, over those of

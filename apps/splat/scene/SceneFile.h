@@ -1,4 +1,5 @@
-/// Scenes of any format: told apart by their content, never by their name.
+/// Reading of scenes in any format, which is recognized by content, never by
+/// name.
 #pragma once
 
 #include "io/Bytes.h"
@@ -34,7 +35,7 @@ struct SceneFormatRecord {
 /// Those of the formats whose documentation states none.
 inline constexpr std::string_view CustomaryAxes = "rdf";
 
-/// All of them, by the number of \c SceneFormat.
+/// All formats, indexed by \c SceneFormat.
 std::span<const SceneFormatRecord> sceneFormats();
 
 inline const SceneFormatRecord &recordOf(SceneFormat F) {
@@ -42,36 +43,36 @@ inline const SceneFormatRecord &recordOf(SceneFormat F) {
 }
 inline std::string_view name(SceneFormat F) { return recordOf(F).Name; }
 
-/// A scene and what its file says about it.
+/// A scene and the metadata of its file.
 struct SceneFile {
   Scene Gaussians;
   SceneFormat Format = SceneFormat::Ply;
   int Version = 0;       ///< of the format; 0 where files carry none
   Drawing DrawnAs;       ///< as the file says, unless ReadOptions say otherwise
   std::size_t Files = 1; ///< data sets that were joined: chunks of a folder
-  /// Properties of a PLY that were not read and are not known to mean anything
-  /// for the picture; what is known to is an error (Unsupported.h).
+  /// Ignored properties of a PLY that are not known to affect the picture;
+  /// those that do are errors (Unsupported.h).
   std::vector<std::string> Skipped;
-  /// Gaussians that were left out because of a NaN or an infinity.
+  /// Number of Gaussians dropped because of a NaN or an infinity.
   std::size_t Dropped = 0;
 };
 
-/// What a reader may choose.
+/// Options of readers.
 struct ReadOptions {
   int LevelOfDetail = 0; ///< of a streamed scene; 0 is the finest
-  /// Leave out Gaussians with a NaN or an infinity, where it is an error else.
+  /// Drop Gaussians with a NaN or an infinity, otherwise an error.
   bool DropNonFinite = false;
   DrawingRequest Drawn;
 };
 
-/// Reads a file or, for SOG, a folder. Every reader gives finite values only;
-/// see docs/scenes.md for what each format keeps and what is refused.
-/// Memory follows the size of what is read and what it says that it holds,
-/// whichever is less.
+/// Reads a file or, for SOG, a folder. All values of the result are finite; see
+/// docs/scenes.md for the precision of each format and the rejected inputs.
+/// Memory is bounded by the smaller of the file's size and the size in its
+/// header.
 Expected<SceneFile> readScene(const std::string &Path,
                               const ReadOptions &Options = {});
 
-/// The same for the content of a file that stands alone (no folder).
+/// The same for the content of a self-contained file (no folder).
 Expected<SceneFile> parseScene(const std::string &Where, Bytes File,
                                const ReadOptions &Options = {});
 

@@ -1,4 +1,4 @@
-/// Which files a scene is read from.
+/// The files of a scene.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace vorion::splat {
 
-/// The files at \p Path that readScene() reads, or would for another level of
-/// detail: the file itself, and those that descriptions (of SOG in a folder, or
-/// a .gltf) name and that are there. Damaged descriptions name none.
+/// The files that readScene() reads for \p Path at any level of detail: the
+/// file itself, and the existing files to which descriptions (of SOG in a
+/// folder, or a .gltf) refer. Damaged descriptions refer to none.
 std::vector<std::string> sceneFiles(const std::string &Path);
 
 } // namespace vorion::splat

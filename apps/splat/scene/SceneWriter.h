@@ -1,4 +1,4 @@
-/// Scenes into files, and what is lost on the way.
+/// Writing of scenes, and the losses.
 #pragma once
 
 #include "scene/Drawing.h"
@@ -12,10 +12,10 @@
 
 namespace vorion::splat {
 
-/// The endings of names whose formats can be written, as ".spz".
+/// The file extensions of writable formats, such as ".spz".
 const std::vector<std::string_view> &writtenEndings();
 
-/// The largest differences of two scenes of the same Gaussians.
+/// Maximum differences of two scenes of the same Gaussians.
 struct SceneDifference {
   double Position = 0; ///< along an axis, world units
   double LogScale = 0;
@@ -25,14 +25,14 @@ struct SceneDifference {
   double Harmonics = 0; ///< of the others
 };
 
-/// Its members, by the names that reports have: "position", "log_scale".
+/// Its members with their names in reports: "position", "log_scale".
 std::vector<std::pair<std::string_view, double>>
 byName(const SceneDifference &D);
 
-/// Both have the same size and degree, in the same order.
+/// Both must have the same size, degree and order.
 SceneDifference differenceOf(const Scene &A, const Scene &B);
 
-/// What a written file has, as its reader sees it.
+/// The contents of a written file, as read back.
 struct WrittenScene {
   SceneDifference Lost;     ///< all 0 where the format keeps every bit
   int ShDegree = 0;         ///< of the file
@@ -40,9 +40,9 @@ struct WrittenScene {
   bool KeepsDrawing = true; ///< whether it says how the scene is drawn
 };
 
-/// Writes \p S, which is drawn as \p D says, in the format of \p Path's ending,
-/// INRIA's PLY if it is none of writtenEndings(), and reads it back. The whole
-/// file appears or none; of a SOG's folder writeFilesTogether() says what may.
+/// Writes \p S with the rendering mode \p D in the format of \p Path's
+/// extension, or as INRIA's PLY if it is none of writtenEndings(), and reads it
+/// back. Writing is atomic; for the folder of a SOG as in writeFilesTogether().
 /// Compressed PLYs have the Gaussians in Morton order.
 Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
                                   const Drawing &D);

@@ -1,4 +1,4 @@
-/// What `splat info` says about the Gaussians of a scene.
+/// Statistics of the Gaussians of a scene for `splat info`.
 #pragma once
 
 #include "scene/Scene.h"
@@ -7,15 +7,15 @@
 
 namespace vorion::splat {
 
-/// Least, median, mean and largest, in double.
+/// Minimum, median, mean and maximum, in double.
 struct Distribution {
   double Least = 0, Median = 0, Mean = 0, Largest = 0;
 };
 
 struct SceneStatistics {
   std::array<double, 3> Low{}, High{}; ///< of the means, by axis
-  /// The same without the outermost hundredth on each side: most scenes have
-  /// strays far away.
+  /// The same without the outermost hundredth on each side, because most scenes
+  /// have distant outliers.
   std::array<double, 3> InnerLow{}, InnerHigh{};
   Distribution Opacity;      ///< activated, 0 to 1
   double Transparent = 0;    ///< share of opacities below 1/255: never blended

@@ -1,4 +1,4 @@
-/// What several compressed formats have in common. Everything is computed in
+/// Common functions of readers of compressed formats. Everything is computed in
 /// double and rounded once.
 #pragma once
 
@@ -21,7 +21,7 @@ inline double unorm(uint32_t Value, int Bits) {
 
 inline double lerp(double A, double B, double T) { return A * (1 - T) + B * T; }
 
-/// The constant coefficient whose colour, without the others, is \p Color.
+/// The SH coefficient of degree 0 for the constant colour \p Color.
 inline float shOfColor(double Color) {
   return static_cast<float>((Color - 0.5) / ShC0);
 }

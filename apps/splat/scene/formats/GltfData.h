@@ -1,5 +1,4 @@
-/// What a glTF file holds apart from its meaning: JSON, buffers, accessors,
-/// nodes.
+/// The containers of a glTF file: JSON, buffers, accessors, nodes.
 #pragma once
 
 #include "scene/formats/Gltf.h"
@@ -12,7 +11,7 @@
 
 namespace vorion::splat {
 
-/// Columns of numbers that a glTF accessor gives, as doubles: normalised ones
+/// The elements of a glTF accessor by component, as doubles: normalized ones
 /// from -1 or 0 to 1.
 struct GltfAccessor {
   Bytes View;             ///< of the first element on
@@ -25,11 +24,11 @@ struct GltfAccessor {
   double at(std::size_t Element, std::size_t Number) const;
 };
 
-/// Column-major, as glTF has it: a point's image is M p.
+/// Column-major as in glTF: a point is transformed to M p.
 using GltfMatrix = std::array<double, 16>;
 GltfMatrix product(const GltfMatrix &A, const GltfMatrix &B);
 
-/// A node with a mesh, and where it stands.
+/// A node with a mesh, and its world transform.
 struct GltfInstance {
   std::size_t Mesh = 0;
   GltfMatrix Transform{};
@@ -48,7 +47,8 @@ public:
   Expected<const nlohmann::json *> objectAt(const char *Key,
                                             std::size_t Index) const;
   Expected<Bytes> bufferView(std::size_t Index) const;
-  /// Bytes of all buffers: what \c accessor gives may be no more elements.
+  /// Total size of all buffers in bytes, an upper bound of elements of \c
+  /// accessor.
   std::size_t bytes() const;
   Expected<GltfAccessor> accessor(std::size_t Index) const;
   /// Of the default scene, or of all nodes if there is no scene.
@@ -69,8 +69,8 @@ private:
   std::vector<Bytes> Buffers;
 };
 
-/// The whole number \p Key of \p Object, \p Otherwise if it is not there.
-/// Nothing if it is no whole number from 0 to 2^53.
+/// The integer \p Key of \p Object, \p Otherwise if it is missing. Empty if it
+/// is not an integer from 0 to 2^53.
 std::optional<std::size_t> gltfIndex(const nlohmann::json &Object,
                                      const char *Key,
                                      std::optional<std::size_t> Otherwise);

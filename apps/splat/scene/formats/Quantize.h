@@ -1,5 +1,4 @@
-/// What writers of several compressed formats have in common; the other way
-/// round than Dequantize.h.
+/// Common functions of writers of compressed formats; inverse of Dequantize.h.
 #pragma once
 
 #include "scene/Scene.h"
@@ -18,7 +17,7 @@ template <typename T> void put(std::string &Out, T Value) {
   Out.append(reinterpret_cast<const char *>(&Value), sizeof(Value));
 }
 
-/// Appends \p Value, cut to a whole number from 0 to 255.
+/// Appends \p Value, clamped and truncated to an integer from 0 to 255.
 inline void putByte(std::string &Out, double Value) {
   Out += static_cast<char>(static_cast<uint8_t>(std::clamp(Value, 0.0, 255.0)));
 }
@@ -44,12 +43,12 @@ inline uint32_t stepOf(double Value, Range R, int Bits) {
       std::clamp(std::floor(T * Largest + 0.5), 0.0, Largest));
 }
 
-/// In which order a format has the components of a quaternion.
+/// The order of a quaternion's components in a format.
 using QuatOrder = std::array<std::size_t, 4>;
 inline constexpr QuatOrder Wxyz = {0, 1, 2, 3}, Xyzw = {1, 2, 3, 0};
 
-/// The unit quaternion of a Gaussian with a positive largest component. One of
-/// zeros is no rotation.
+/// The normalized quaternion of a Gaussian with a positive largest component;
+/// the identity for a zero quaternion.
 struct UnitQuat {
   std::array<double, 4> Q{};
   std::size_t Largest = 0;

@@ -10,19 +10,17 @@
 
 namespace vorion::splat {
 
-/// Gives the content of a file of a data set by its name. One of more than
-/// \p Most bytes is an error.
+/// Reads a file of a data set by its name. Error: more than \p Most bytes.
 using FileSource = std::function<Expected<std::vector<std::byte>>(
     const std::string &Name, std::size_t Most)>;
 
-/// A data set whose description and pictures were read, and whose Gaussians are
-/// to be written where they belong in a scene of one or more data sets. It has
-/// positions of 16 bits between bounds of
-/// sign(x) ln(|x| + 1); log scales, colours and harmonics by codebooks of 256
-/// numbers, harmonics in a palette of up to 65,536 entries; rotations of 8 bits
-/// for each of the three smallest components; opacity of 8 bits. Version 1 has
-/// even steps between bounds where version 2 has codebooks, and logits of
-/// opacities.
+/// A data set with its description and decoded pictures, whose Gaussians are
+/// then written to a scene of one or more data sets. It has positions of 16
+/// bits between bounds of sign(x) ln(|x| + 1); log scales, colours and
+/// harmonics by codebooks of 256 numbers, harmonics in a palette of up to
+/// 65,536 entries; rotations of 8 bits for each of the three smallest
+/// components; opacity of 8 bits. Version 1 has even steps between bounds where
+/// version 2 has codebooks, and logits of opacities.
 class SogData {
 public:
   /// \p Meta is the content of meta.json, and \p Read is used until this
@@ -39,8 +37,7 @@ public:
 
   /// Its Gaussians.
   std::size_t size() const;
-  /// What it says about itself: a file without Gaussians, but with their
-  /// degree.
+  /// Its metadata: a file without Gaussians, but with their degree.
   const SceneFile &head() const;
   /// Writes the Gaussians to \p To, of the same degree, the first of them to
   /// place \p At. Called once. Refused: indices outside codebook or palette.
@@ -52,7 +49,7 @@ private:
   std::unique_ptr<Reader> Own;
 };
 
-/// The whole data set, as \c SogData has it.
+/// The complete data set of \c SogData.
 Expected<SceneFile> parseSogData(const std::string &Where,
                                  const std::string &MetaWhere, Bytes Meta,
                                  const FileSource &Read,

@@ -18,8 +18,8 @@ Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
                                 const ReadOptions &Options);
 
 /// Decodes what \p Index, the content of lod-meta.json, lists for one level of
-/// detail, and the environment if there is one. Every run of Gaussians that a
-/// leaf of the tree names must lie in its chunk, apart from all others.
+/// detail, and the environment if there is one. The ranges of Gaussians of all
+/// leaves of the tree must be disjoint and inside their chunks.
 Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Index,
                                      const FileSource &Read,
                                      const ReadOptions &Options);

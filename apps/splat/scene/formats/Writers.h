@@ -1,6 +1,6 @@
-/// Writers of the compressed formats. Each gives a file's bytes, quantised as
-/// the format documents it and rounded to the nearest step, in the order of the
-/// scene. docs/scenes.md says how fine the steps are. INRIA's PLY: Ply.h.
+/// Writers of the compressed formats. Each returns a file's bytes, quantized as
+/// documented by the format, rounded to the nearest step, in the order of the
+/// scene. docs/scenes.md lists the steps. INRIA's PLY: Ply.h.
 #pragma once
 
 #include "scene/Drawing.h"
@@ -17,15 +17,16 @@ namespace vorion::splat {
 std::string compressedPlyOf(const Scene &S, const Drawing &D = {},
                             bool ColorBounds = true);
 
-/// Drops harmonics, and colours are cut to 0 to 1.
+/// Drops spherical harmonics, and clamps colours to 0 to 1.
 std::string splatOf(const Scene &S);
 
-/// Whether the steps of `.spz` reach every mean of \p S.
+/// Whether every mean of \p S is in the range of `.spz`.
 bool fitsSpz(const Scene &S);
 
-/// What an `.spz` of \p Version 2 or 3 holds before it is compressed. Steps of
-/// positions are as fine as the scene's size allows, at most 1/4096. Log scales
-/// are cut to -10 to 5.94, harmonics to -1 to 1. fitsSpz(S).
+/// The uncompressed contents of an `.spz` of \p Version 2 or 3. Steps of
+/// positions are as fine as the scene's extent permits, at most 1/4096. Log
+/// scales are clamped to -10 to 5.94, spherical harmonics to -1 to 1. Requires
+/// fitsSpz(S).
 std::string spzBodyOf(const Scene &S, int Version, const Drawing &D = {});
 
 /// The files of a SOG of version 2, by name: codebooks of 256 values, and
