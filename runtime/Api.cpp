@@ -65,10 +65,9 @@ Failure findOptions(std::span<const vx_option> Given, DeviceOptions &Options) {
       return isNull(Option.name ? "text" : "name");
     std::string *Text = Options.find(Option.name);
     if (!Text)
-      return badArgument(
-          fmt::format("no option '{}', expected the name of one of the "
-                      "environment's variables (docs/debugging.md)",
-                      Option.name));
+      return badArgument(fmt::format("no option '{}', expected the name of an "
+                                     "environment variable (docs/debugging.md)",
+                                     Option.name));
     *Text = Option.text;
   }
   return {};

@@ -115,10 +115,9 @@ TEST_F(Runtime, RefusesKernelsForOtherLanes) {
             VX_ERROR_IMAGE);
   EXPECT_EQ(vx_last_error(),
             OTHER_LANES_ELF +
-                std::string(": kernel 'store' was compiled "
-                            "for warps of 8 lanes, expected "
-                            "16 as the machine has (the compiler takes "
-                            "VORION_SET and VORION_CONFIG, too)"));
+                std::string(": kernel 'store' was compiled for warps of 8 "
+                            "lanes, expected 16 as in the machine (the "
+                            "compiler reads VORION_SET and VORION_CONFIG)"));
   vx_device *Narrow = nullptr;
   ASSERT_EQ(vx_device_open(R"({"lanes_per_warp": 8, "global_bytes": 8388608})",
                            &Narrow),
@@ -406,8 +405,8 @@ TEST_F(Runtime, ThreeGibibytesCanBeHad) {
   EXPECT_EQ(vx_copy_from_device(Large, &Word, VX_IMAGE_BASE - 2, 4),
             VX_ERROR_ARGUMENT);
   EXPECT_STREQ(vx_last_error(),
-               "[0x7ffffffe, +0x4) is not all global memory, expected a range "
-               "in [0x10000, +0x7fff0000) or [0x81000000, +0x40010000)");
+               "[0x7ffffffe, +0x4) is not inside global memory, expected a "
+               "range in [0x10000, +0x7fff0000) or [0x81000000, +0x40010000)");
   EXPECT_EQ(vx_image_free(Kernels), VX_OK);
   EXPECT_EQ(vx_device_close(Large), VX_OK);
 }

@@ -83,8 +83,8 @@ Failure Device::allocateLocked(uint64_t Size, const char *What,
   const auto Found = Memory.allocate(Size + Watch->guardBytes(), From, Below);
   if (!Found)
     return {VX_ERROR_MEMORY,
-            fmt::format("no room for {} of {} bytes: {} of {} bytes of device "
-                        "memory are free, {} in one piece",
+            fmt::format("cannot allocate {} of {} bytes: {} of {} bytes of "
+                        "device memory are free, {} contiguous",
                         What, Size, Memory.freeBytes(),
                         isasim::globalBytes(Machine->config()),
                         Memory.largestFree())};
@@ -110,7 +110,7 @@ Failure Device::allocateVariables(const LoadedImage &Image,
   // behind it.
   for (const uint64_t Below : {uint64_t{VX_IMAGE_BASE}, UINT64_MAX}) {
     Failure Failed = allocateLocked(isasim::bytesFor(K.Variables),
-                                    "the variables of program scope",
+                                    "the program-scope variables",
                                     Allocator::End::High, Start, Below);
     if (Failed && Below == UINT64_MAX)
       return Failed;
@@ -143,9 +143,9 @@ Failure Device::globalRange(uint32_t Address, uint64_t Size,
     if (Length)
       Ranges += fmt::format("{}[{:#x}, +{:#x})", Ranges.empty() ? "" : " or ",
                             Base, Length);
-  return badArgument(fmt::format("[{:#x}, +{:#x}) is not all global memory, "
-                                 "expected a range in {}",
-                                 Address, Size, Ranges));
+  return badArgument(fmt::format(
+      "[{:#x}, +{:#x}) is not inside global memory, expected a range in {}",
+      Address, Size, Ranges));
 }
 
 bool Device::isRasterWindow(uint32_t Address) {

@@ -70,8 +70,9 @@ Failure DeviceOptions::readTime(isasim::Config &C) const {
   if (!Clock)
     return cannotOpen(isasim::inVariable("VORION_TIME", Clock.error()));
   if (onlyProfiled() && !Watch.Region.empty())
-    return {VX_ERROR_CONFIG, "VORION_REGION with VORION_TIME 'profiled', "
-                             "expected one of them to choose what is timed"};
+    return {VX_ERROR_CONFIG,
+            "VORION_REGION with VORION_TIME 'profiled', expected only one of "
+            "them to select the timed launches"};
   if (Clock->When != ClockText::Runs::AsConfigured)
     C.Timing.Enabled = Clock->When != ClockText::Runs::Never;
   C.Timing.Enabled |= Watch.needClock();

@@ -26,7 +26,7 @@ constexpr std::pair<uint64_t isasim::LaunchParts::*, const char *>
                          {&isasim::LaunchParts::Print, "the print buffer"},
                          {&isasim::LaunchParts::Args, "the arguments"},
                          {&isasim::LaunchParts::Context,
-                          "the memory that a kernel keeps across barriers"}};
+                          "the memory for values saved across barriers"}};
 
 bool hasLocalArgs(const isasim::Kernel &K) {
   return std::ranges::any_of(K.Args, [](const isasim::KernelArg &Arg) {
@@ -131,8 +131,8 @@ Failure Device::holdStacks(const isasim::Launch &Planned) {
   if (UnderStacks == Planned.stacksBegin())
     return {};
   return {VX_ERROR_MEMORY,
-          fmt::format("no room for stacks that begin at {:#x}: expected the "
-                      "last {} bytes of device memory to be free",
+          fmt::format("cannot allocate stacks at {:#x}: expected the last {} "
+                      "bytes of device memory to be free",
                       Planned.stacksBegin(), Bytes)};
 }
 
@@ -230,10 +230,9 @@ Failure Device::start(LoadedImage &Image, uint32_t Kernel,
   const uint32_t Variables = isasim::placeOf(K.Variables, Params.variables);
   if (K.Variables.Bytes != 0 &&
       !Machine->hostPointer(Variables, K.Variables.Bytes))
-    return badArgument(
-        fmt::format("variables is {:#x}, expected memory for the "
-                    "variables of program scope of kernel {}",
-                    Params.variables, K.Name));
+    return badArgument(fmt::format("variables is {:#x}, expected memory for "
+                                   "the program-scope variables of kernel {}",
+                                   Params.variables, K.Name));
   Lock Held(Mutex);
   if (Running)
     return {VX_ERROR_BUSY, "a run is in progress"};

@@ -34,7 +34,7 @@ expect() { # expect TITLE TEXT COMMAND: a user's command, whose output has the t
   grep -qF -- "$2" <<<"$Output" || fail "$3: expected \"$2\" in: $Output"
 }
 expect "the device" "Device #0: Vorion" "clinfo -l"
-expect "a sample" "agrees with the host" "sample-vecadd"
+expect "a sample" "matches the host" "sample-vecadd"
 expect "a scene" "" "splat demo-scene -o scene.ply --cameras cameras.json"
 expect "its picture" "" "splat render scene.ply --cameras cameras.json --view front -o front.png && test -s front.png"
 expect "Python" "Vorion" "python3 -c 'import vorion; print(vorion.Machine().name)'"

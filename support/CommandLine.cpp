@@ -216,7 +216,7 @@ std::string describe(const CLI::App &App, const CLI::ParseError &E) {
       const auto Most =
           static_cast<std::size_t>(std::max(O->get_items_expected_max(), 1));
       return O->results().size() > Most
-                 ? fmt::format("{}: {} values, expected {} at most",
+                 ? fmt::format("{}: {} values, expected at most {}",
                                O->get_name(), O->results().size(), Most)
                  : fmt::format("{}: a value is missing, expected {}",
                                O->get_name(), O->get_type_name());
@@ -227,8 +227,8 @@ std::string describe(const CLI::App &App, const CLI::ParseError &E) {
       for (const CLI::Option *O : A->get_options()) {
         const std::string Values = CLI::detail::join(O->results());
         if (!Values.empty() && Said.ends_with(O->get_name() + " = " + Values))
-          return fmt::format("{}: {} is not a number that it takes",
-                             O->get_name(), Values);
+          return fmt::format("{}: {} is not a valid number", O->get_name(),
+                             Values);
       }
     return Said;
   default:

@@ -258,10 +258,10 @@ TEST(CommandLine, NoMessageIsTheParsersOwn) {
             "tool: error: --json: a value is missing, expected FILE (see "
             "--help)\n");
   EXPECT_EQ(SaidOf({"--threads", "-1"}),
-            "tool: error: --threads: -1 is not a number that it takes (see "
+            "tool: error: --threads: -1 is not a valid number (see "
             "--help)\n");
   EXPECT_EQ(SaidOf({"--threads", "1", "--threads", "2"}),
-            "tool: error: --threads: 2 values, expected 1 at most (see "
+            "tool: error: --threads: 2 values, expected at most 1 (see "
             "--help)\n");
   EXPECT_EQ(SaidOf({"--clock", "1e3"}),
             "tool: error: --clock: 1e3, expected a whole number from 1 to "

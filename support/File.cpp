@@ -101,9 +101,8 @@ Expected<std::vector<std::byte>> readAll(const std::string &Path,
     if (*Got == 0)
       return Bytes;
     if (Bytes.size() + *Got > Most)
-      return Error{Path, fmt::format("more than {0} bytes without an end, "
-                                     "expected at most {0}",
-                                     Most)};
+      return Error{
+          Path, fmt::format("more than {0} bytes, expected at most {0}", Most)};
     Bytes.insert(Bytes.end(), Chunk.begin(),
                  Chunk.begin() + static_cast<std::ptrdiff_t>(*Got));
   }

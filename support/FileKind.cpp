@@ -48,7 +48,7 @@ static_assert(std::ranges::all_of(Marks,
                                   [](const Mark &M) {
                                     return M.Bytes.size() >= 3;
                                   }),
-              "a file without a mark has it by chance");
+              "a file without magic bytes matches by chance");
 
 bool fits(const Mark &M, std::string_view Start) {
   return Start.size() > M.At && Start.substr(M.At).starts_with(M.Bytes);
@@ -381,45 +381,45 @@ std::string_view adviceFor(FileUse U) {
   case FileUse::OtherPicture:
     return "`splat compare` and `splat train` take it as PNG";
   case FileUse::Film:
-    return "`splat train` takes its frames as a capture of pictures";
+    return "`splat train` reads its frames as a capture of pictures";
   case FileUse::Scene:
-    return "`splat render` and `splat convert` take scenes";
+    return "`splat render` and `splat convert` read scenes";
   case FileUse::MovingScene:
-    return "`splat render` takes one moment of it as .ply";
+    return "`splat render` reads one time step of it as .ply";
   case FileUse::Model:
   case FileUse::Weights:
-    return "`splat render` takes Gaussians that are exported from it as .ply";
+    return "`splat render` reads Gaussians exported from it as .ply";
   case FileUse::Points:
-    return "`splat train` makes scenes from captures, not from these";
+    return "`splat train` trains from captures, not from these";
   case FileUse::Captured:
-    return "`splat train` takes the folder of the capture";
+    return "`splat train` reads the folder of the capture";
   case FileUse::Cameras:
-    return "`splat render` takes it with --cameras";
+    return "`splat render` reads it with --cameras";
   case FileUse::Archive:
   case FileUse::Packed:
-    return "unpack it, and name the file in it";
+    return "unpack it, and use the file in it";
   case FileUse::Folder:
-    return "unpack it, and name the folder";
+    return "unpack it, and use the folder";
   case FileUse::Program:
-    return "`vorion-sim` and `vorion-objdump` take programs of the machine";
+    return "`vorion-sim` and `vorion-objdump` read programs of the machine";
   case FileUse::Objects:
     return "`vorion-link` takes objects";
   case FileUse::OtherProgram:
   case FileUse::Code:
     return "`vorion-clang` compiles sources for the machine";
   case FileUse::OwnCheckpoint:
-    return "`splat train --resume` goes on from it";
+    return "`splat train --resume` continues from it";
   case FileUse::OwnRegion:
     return "`vorion-sim` repeats it";
   case FileUse::OwnReport:
-    return "`splat replay` makes it again, and `splat compare --times` "
-           "compares times";
+    return "`splat replay` reproduces it, and `splat compare --times` compares "
+           "times";
   case FileUse::OtherText:
     return "save it as UTF-8";
   case FileUse::Pointer:
     return "fetch the file itself with `git lfs pull`";
   case FileUse::Page:
-    return "fetch the file itself, perhaps by another link";
+    return "download the file itself, perhaps by another link";
   }
   return "";
 }

@@ -164,7 +164,7 @@ TEST(FileKind, AReaderSaysWhatTheFileIsAndWhatToDo) {
   EXPECT_EQ(What(padded("%PDF-1.7")), "a document (PDF), expected a thing");
   EXPECT_EQ(What(elf(1, 1, 2, 243)),
             "an ELF executable for RISC-V (32-bit), expected a thing; "
-            "`vorion-sim` and `vorion-objdump` take programs of the machine");
+            "`vorion-sim` and `vorion-objdump` read programs of the machine");
   EXPECT_EQ(What(elf(2, 1, 2, 62)),
             "an ELF executable for x86-64 (64-bit), expected a thing; "
             "`vorion-clang` compiles sources for the machine");

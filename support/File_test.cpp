@@ -49,7 +49,7 @@ TEST_F(FileTest, AnEndlessDeviceIsReadToItsBound) {
   const auto Read = readFile("/dev/zero", 1 << 20);
   ASSERT_FALSE(Read);
   EXPECT_EQ(Read.error().What,
-            "more than 1048576 bytes without an end, expected at most 1048576");
+            "more than 1048576 bytes, expected at most 1048576");
   const auto Empty = readFile("/dev/null");
   ASSERT_TRUE(Empty);
   EXPECT_TRUE(Empty->empty());

@@ -9,10 +9,10 @@ namespace vorion {
 
 Expected<GrowingFile> GrowingFile::open(const std::string &Path) {
   if (Path == "-")
-    return Error{Path,
-                 "this output is written as it grows, expected the name of a "
-                 "file",
-                 ExitCode::Usage};
+    return Error{
+        Path,
+        "this output is written incrementally, expected the name of a file",
+        ExitCode::Usage};
   if (auto Named = checkName(Path); !Named)
     return Named.error();
   std::FILE *F = std::fopen(Path.c_str(), "wb");
@@ -29,8 +29,9 @@ Expected<Success> GrowingFile::complete(std::string_view What) const {
 }
 
 Error GrowingFile::incomplete(std::string_view What) const {
-  return {Path,
-          fmt::format("cannot write all of it, expected room for {}", What)};
+  return {
+      Path,
+      fmt::format("cannot write all of it, expected free space for {}", What)};
 }
 
 } // namespace vorion

@@ -60,9 +60,9 @@ std::string beyond(std::string_view Text, const JsonLimits &Limits) {
     else if (C == ',')
       ++Open.back().Commas;
     if (Open.size() > Limits.Depth)
-      return fmt::format("lists and objects more than {} deep in each other, "
-                         "expected fewer",
-                         Limits.Depth);
+      return fmt::format(
+          "lists and objects nested deeper than {}, expected fewer levels",
+          Limits.Depth);
     if (!Open.empty() && Open.back().IsObject &&
         Open.back().Commas >= Limits.Keys)
       return fmt::format("an object of more than {} keys, expected fewer",
@@ -149,10 +149,10 @@ Expected<Kind> parseJson(std::string_view Text, const std::string &Where,
   try {
     Kind J = Kind::parse(Text.begin(), Text.end());
     if (const auto Again = repeatedKey<Kind>(Text))
-      return Error{placeOf(Text, Again->Byte, Where),
-                   fmt::format("key {} for the second time in an object, "
-                               "expected it once",
-                               printable(Again->Name))};
+      return Error{
+          placeOf(Text, Again->Byte, Where),
+          fmt::format("duplicate key {} in an object, expected unique keys",
+                      printable(Again->Name))};
     return J;
   } catch (const nlohmann::json::parse_error &E) {
     const auto File = std::as_bytes(std::span(Text));
@@ -162,8 +162,9 @@ Expected<Kind> parseJson(std::string_view Text, const std::string &Where,
         placeOf(Text, E.byte, Where),
         fmt::format("not JSON: {}, expected {}", reasonOf(E.what()), Wanted)};
   } catch (const nlohmann::json::out_of_range &) {
-    return Error{Where, "a number beyond what a double holds, expected one "
-                        "below 1.8e308"};
+    return Error{
+        Where,
+        "a number outside the range of double, expected one below 1.8e308"};
   }
 }
 

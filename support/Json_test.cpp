@@ -47,8 +47,9 @@ TEST(Json, WhatIsNoneIsNamedWithItsPlaceAndWhy) {
             "a thing");
   EXPECT_EQ(errorOf("\"\\"), "f:1:3: not JSON: invalid string: forbidden "
                              "character after backslash, expected a thing");
-  EXPECT_EQ(errorOf("[1e999]"), "f: a number beyond what a double holds, "
-                                "expected one below 1.8e308");
+  EXPECT_EQ(
+      errorOf("[1e999]"),
+      "f: a number outside the range of double, expected one below 1.8e308");
 }
 
 TEST(Json, AFileOfAnotherKindIsNamed) {
@@ -58,17 +59,16 @@ TEST(Json, AFileOfAnotherKindIsNamed) {
             "train` take pictures");
   EXPECT_EQ(errorOf("<html>"),
             "f: a web page or other XML, expected a thing; "
-            "fetch the file itself, perhaps by another link");
+            "download the file itself, perhaps by another link");
 }
 
 TEST(Json, AKeyStandsOnceInItsObject) {
   EXPECT_EQ(errorOf("{\"a\": 1,\n \"b\": 2, \"a\": 3}"),
-            "f:2:10: key a for the second time in an object, expected it once");
+            "f:2:10: duplicate key a in an object, expected unique keys");
   EXPECT_EQ(errorOf(R"({"a\n": [{}], "\u0061\u000a": 3})"),
-            "f:1:15: key a\\x0a for the second time in an object, expected it "
-            "once");
+            "f:1:15: duplicate key a\\x0a in an object, expected unique keys");
   EXPECT_EQ(errorOf(R"([{"b": {"a": 1, "c": [], "a": 2}}])"),
-            "f:1:26: key a for the second time in an object, expected it once");
+            "f:1:26: duplicate key a in an object, expected unique keys");
   EXPECT_EQ(errorOf(R"({"a": {"a": "a"}, "b": [{"a": "\":a"}, {"a": "a"}]})"),
             "")
       << "each in an object of its own";
@@ -77,8 +77,8 @@ TEST(Json, AKeyStandsOnceInItsObject) {
 }
 
 TEST(Json, DepthIsBounded) {
-  constexpr const char *TooDeep = "f: lists and objects more than 256 deep in "
-                                  "each other, expected fewer";
+  constexpr const char *TooDeep =
+      "f: lists and objects nested deeper than 256, expected fewer levels";
   EXPECT_EQ(errorOf(nested(256)), "");
   EXPECT_EQ(errorOf(nested(257)), TooDeep);
   EXPECT_EQ(errorOf(nested(200'000)), TooDeep);
@@ -93,7 +93,7 @@ TEST(Json, DepthIsBounded) {
             "f:1:2: not JSON: unexpected '[', expected a thing");
   EXPECT_EQ(errorOf("ply\n" + nested(1000)),
             "f: a PLY file, expected a thing; `splat render` and `splat "
-            "convert` take scenes")
+            "convert` read scenes")
       << "the first thing that is wrong";
 }
 

@@ -58,11 +58,11 @@ Expected<Success> claimOutputs(const std::vector<NamedFile> &Outputs,
     const Identity Own = identityOf(Output.Path);
     for (const auto &[By, Other] : Taken)
       if (Own.isSame(Other))
-        return Error{Output.Path,
-                     fmt::format("is named for {} and for {}, expected two "
-                                 "files",
-                                 By->Name, Output.Name),
-                     ExitCode::Usage};
+        return Error{
+            Output.Path,
+            fmt::format("is the file of both {} and {}, expected two files",
+                        By->Name, Output.Name),
+            ExitCode::Usage};
     Taken.emplace_back(&Output, Own);
     if (auto Writable = checkWritable(Output.Path); !Writable)
       return Writable;

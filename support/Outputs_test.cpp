@@ -28,7 +28,7 @@ protected:
     EXPECT_EQ(bool(Apart), bool(Both)) << A << ", " << B;
     if (!Both) {
       EXPECT_EQ(Both.error().What,
-                "is named for -o and for --json, expected two files");
+                "is the file of both -o and --json, expected two files");
       EXPECT_EQ(Both.error().Code, ExitCode::Usage);
     }
     return !Both;

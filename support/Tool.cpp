@@ -31,8 +31,7 @@ void keepStandardStreams() {
 int reportFullOutput(std::string_view Tool, int Cause) {
   return reportError(
       Tool, {"standard output",
-             fmt::format("cannot write: {}, expected one that "
-                         "takes what is printed",
+             fmt::format("cannot write: {}, expected an open output stream",
                          Cause ? std::strerror(Cause) : "not all was taken")});
 }
 
@@ -59,8 +58,8 @@ int reportLimit(std::string_view What) {
 }
 
 int reportNoMemory() {
-  return reportLimit("memory ran out, expected a smaller input or a machine "
-                     "with more");
+  return reportLimit(
+      "out of memory, expected a smaller input or a host with more memory");
 }
 
 void endWithoutTime(int /*Signal*/) {
@@ -127,23 +126,25 @@ int runTool(std::string_view Tool, const std::function<int()> &Body) {
   } catch (const std::bad_alloc &) {
     Code = reportNoMemory();
   } catch (const std::filesystem::filesystem_error &E) {
-    Code = reportError(Tool, {E.path1().string(),
-                              fmt::format("{}, expected a path that can be "
-                                          "followed",
-                                          E.code().message())});
+    Code = reportError(Tool,
+                       {E.path1().string(),
+                        fmt::format("{}, expected a path that can be resolved",
+                                    E.code().message())});
   } catch (const std::system_error &E) {
     // A full standard output, or no room for a thread.
     Code = std::ferror(stdout)
                ? reportFullOutput(Tool, E.code().value())
-               : reportError(Tool, {"",
-                                    fmt::format("{}, expected a machine that "
-                                                "has room for it",
-                                                E.what()),
-                                    ExitCode::LimitReached});
+               : reportError(
+                     Tool,
+                     {"",
+                      fmt::format("{}, expected a host with enough resources",
+                                  E.what()),
+                      ExitCode::LimitReached});
   } catch (const std::exception &E) {
     Code = reportError(
-        Tool, {"", fmt::format("a bug: {}, expected no exception", E.what()),
-               ExitCode::Internal});
+        Tool,
+        {"", fmt::format("internal error: {}, expected no exception", E.what()),
+         ExitCode::Internal});
   }
   return Code;
 }

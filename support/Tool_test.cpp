@@ -23,13 +23,14 @@ TEST(Tool, GivesTheCodeOfItsBody) {
 }
 
 TEST(Tool, WhatIsThrownIsOneLine) {
-  EXPECT_EQ(ran([]() -> int { throw std::bad_alloc(); }),
-            std::pair(5, std::string("tool: error: memory ran out, expected a "
-                                     "smaller input or a machine with "
-                                     "more\n")));
-  EXPECT_EQ(ran([]() -> int { throw std::runtime_error("this\nthat"); }),
-            std::pair(70, std::string("tool: error: a bug: this\\x0athat, "
-                                      "expected no exception\n")));
+  EXPECT_EQ(
+      ran([]() -> int { throw std::bad_alloc(); }),
+      std::pair(5, std::string("tool: error: out of memory, expected a smaller "
+                               "input or a host with more memory\n")));
+  EXPECT_EQ(
+      ran([]() -> int { throw std::runtime_error("this\nthat"); }),
+      std::pair(70, std::string("tool: error: internal error: this\\x0athat, "
+                                "expected no exception\n")));
 }
 
 // The sanitizer has an allocator of its own, which asks no handler.
@@ -42,8 +43,8 @@ TEST(Tool, MemoryThatRunsOutInAThreadIsOneLine) {
     return 0;
   };
   EXPECT_EXIT(runTool("tool", TakeTooMuch), testing::ExitedWithCode(5),
-              "^tool: error: memory ran out, expected a smaller input or a "
-              "machine with more\n$");
+              "^tool: error: out of memory, expected a smaller input or a host "
+              "with more memory\n$");
 }
 #endif
 
@@ -59,10 +60,11 @@ TEST(Tool, OutputThatIsFullIsSeen) {
   ASSERT_EQ(dup2(Saved, STDOUT_FILENO), STDOUT_FILENO);
   close(Saved);
   std::clearerr(stdout);
-  EXPECT_EQ(Result,
-            std::pair(3, std::string("tool: error: standard output: cannot "
-                                     "write: No space left on device, expected "
-                                     "one that takes what is printed\n")));
+  EXPECT_EQ(
+      Result,
+      std::pair(
+          3, std::string("tool: error: standard output: cannot write: No space "
+                         "left on device, expected an open output stream\n")));
 }
 
 } // namespace

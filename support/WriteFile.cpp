@@ -29,7 +29,7 @@ Error cannotWrite(const std::string &Path, int Cause,
   if (Wanted == WritableFolder && (Cause == ENOSPC || Cause == EDQUOT))
     Wanted = "free space there";
   if (Cause == EFBIG)
-    Wanted = "a higher limit of the size of files (ulimit -f)";
+    Wanted = "a higher limit on file sizes (ulimit -f)";
   return {Path, fmt::format("cannot write: {}, expected {}",
                             std::strerror(Cause), Wanted)};
 }
@@ -148,7 +148,7 @@ Expected<Success> writeThrough(const std::string &Path, const void *Data,
       ::open(Path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC | O_NOCTTY));
   if (File.number() >= 0 && writeAll(File.number(), Data, Size) && File.close())
     return Success{};
-  return cannotWrite(Path, errno, "a device or a pipe that takes it");
+  return cannotWrite(Path, errno, "a device or a pipe that accepts it");
 }
 
 Expected<Success> writeStandardOutput(const void *Data, std::size_t Size) {

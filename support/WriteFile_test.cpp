@@ -104,7 +104,7 @@ TEST_F(WriteFileTest, ADeviceWithoutRoomIsAnError) {
     GTEST_SKIP() << "devices cannot be made here";
   EXPECT_EQ(errorOf(writeFileAtomically(path("full"), "text")),
             "cannot write: No space left on device, expected a device or a "
-            "pipe that takes it");
+            "pipe that accepts it");
 }
 
 TEST_F(WriteFileTest, StandardOutputHasAName) {

@@ -52,8 +52,8 @@ TEST(TemporaryFolder, NeedsOneToBeIn) {
   unsetenv("TMPDIR");
   ASSERT_FALSE(Folder);
   EXPECT_EQ(Folder.error().What,
-            "cannot make a temporary folder: No such file or directory, "
-            "expected TMPDIR to allow one");
+            "cannot create a temporary folder: No such file or directory, "
+            "expected TMPDIR to name a writable folder");
 }
 
 } // namespace

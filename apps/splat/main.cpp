@@ -77,22 +77,20 @@ int run(std::vector<std::string> Arguments) {
   CLI::App App("Renders 3D Gaussian scenes on an OpenCL device.", "splat");
   App.footer(std::string(ExitCodeHelp));
   App.require_subcommand(1);
-  App.set_version_flag("--version", programsText,
-                       "Print the version, and a hash of all programs that "
-                       "results depend on");
+  App.set_version_flag(
+      "--version", programsText,
+      "Print the version and a hash of all programs that affect results");
   splat::DeviceOptions Device;
   App.add_option_function<std::string>(
          "--set",
          [&](const std::string &Set) {
            Device.set("VORION_SET", Set, "--set");
          },
-         "change the Vorion device's configuration, as cores=16, "
-         "rasterizers=4, "
-         "lanes=32, dram=lpddr5-6400 or any key of vorion-sim "
-         "--print-default-config (as VORION_SET)")
+         "Override configuration keys of the Vorion device, e.g. "
+         "cores=16,dram=lpddr5-6400; vorion-sim --print-default-config lists "
+         "them (default: VORION_SET)")
       ->type_name("KEY=VALUE,...");
-  App.add_flag_callback("--quiet", splat::hideProgress,
-                        "Say nothing of how far a run is");
+  App.add_flag_callback("--quiet", splat::hideProgress, "Do not show progress");
   // After a command, too.
   App.fallthrough();
 
@@ -104,34 +102,44 @@ int run(std::vector<std::string> Arguments) {
     Commands.emplace_back(Command, Declare(*Command));
   };
   Add("render", "Renders views of a scene", splat::addRender);
-  Add("view", "Shows a scene on a page of this computer, drawn frame by frame",
+  Add("view",
+      "Serves an interactive viewer of a scene to a browser on this computer",
       splat::addView);
-  Add("gradients", "Takes a loss's gradients back from one view to a scene",
+  Add("gradients",
+      "Computes a loss's gradients with respect to a scene's parameters, for "
+      "one view",
       splat::addGradients);
-  Add("analyze", "Counts what a view of a scene asks of a machine",
+  Add("analyze", "Counts the rendering workload of one view of a scene",
       splat::addAnalyze);
-  Add("accuracy", "Measures what accuracy costs in time", splat::addAccuracy);
-  Add("effects", "Measures what it saves to compile only what a scene needs",
+  Add("accuracy", "Measures the trade-off between accuracy and frame time",
+      splat::addAccuracy);
+  Add("effects",
+      "Measures the saving of compiling only the effects that a scene needs",
       splat::addEffects);
-  Add("explore", "Tries machines: frames a second, energy and area",
+  Add("explore",
+      "Explores the design space of machines: frame rate, energy and area",
       splat::addExplore);
-  Add("info", "Prints what is in a scene or a capture", splat::addInfo);
-  Add("convert", "Writes a scene in another format, and says what is lost",
+  Add("info", "Prints the contents of a scene or a capture", splat::addInfo);
+  Add("convert", "Converts a scene to another format, and reports what is lost",
       splat::addConvert);
-  Add("demo-scene", "Writes the project's own scene and its cameras",
+  Add("demo-scene", "Writes the project's demo scene and its cameras",
       splat::addDemoScene);
-  Add("train", "Makes a scene from photographs with poses", splat::addTrain);
-  Add("eval", "Judges a scene by the photographs of a capture", splat::addEval);
-  Add("compare", "Compares two pictures, two lists of pairs or two times",
+  Add("train", "Trains a scene from photographs with poses", splat::addTrain);
+  Add("eval", "Evaluates a scene on the photographs of a capture (PSNR, SSIM)",
+      splat::addEval);
+  Add("compare",
+      "Compares two pictures, two lists of tile-Gaussian pairs or two timings",
       splat::addCompare);
-  Add("replay", "Runs again what made a report, and compares the bits",
+  Add("replay",
+      "Repeats the command that wrote a report, and checks that the results "
+      "are bit-identical",
       splat::addReplay);
-  Add("doctor", "Looks for what keeps programs from working here",
+  Add("doctor", "Diagnoses problems of this computer's set-up",
       splat::addDoctor);
 
   App.add_subcommand(std::string(HardCases),
-                     "Shows scenes whose numbers are hard, with and without "
-                     "their guards");
+                     "Renders numerically hard scenes, with and without the "
+                     "guards in the kernels");
   if (const CLI::App *Called = calledCommand(App, Arguments);
       (Called && Called->get_name() == HardCases) ||
       Arguments == std::vector<std::string>{"help", std::string(HardCases)})

@@ -21,7 +21,7 @@ bool HostBudget::isOver() const {
 
 std::string HostBudget::reason() const {
   if (StopRequested.load(std::memory_order_relaxed))
-    return "stopped from outside";
+    return "stopped by the host program";
   if (isLate())
     return fmt::format("watchdog: the run took longer than {} s", Watchdog);
   return {};

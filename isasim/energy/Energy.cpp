@@ -130,23 +130,24 @@ Expected<EnergyModel> EnergyModel::create(Technology From, unsigned ClockMhz,
   if (!Volts) {
     Volts = voltsFor(From, ClockMhz);
     if (!Volts)
-      return Error{"",
-                   fmt::format("a clock of {} MHz is beyond technology {}, "
-                               "whose law ends at {:g} MHz, expected --voltage "
-                               "with it",
-                               ClockMhz, From.Name, From.HighMhz),
-                   ExitCode::Usage};
+      return Error{
+          "",
+          fmt::format(
+              "a clock of {} MHz exceeds the frequency law of technology {}, "
+              "which ends at {:g} MHz, expected --voltage",
+              ClockMhz, From.Name, From.HighMhz),
+          ExitCode::Usage};
   }
   const double Low = From.LowVolts / BeyondLaw,
                High = From.HighVolts * BeyondLaw;
   if (!(*Volts >= Low && *Volts <= High))
-    return Error{"",
-                 fmt::format("--voltage: {:g}, expected a number from {:.3g} "
-                             "to {:.3g}, because the law of technology {} goes "
-                             "from {:g} to {:g} V",
-                             *Volts, Low, High, From.Name, From.LowVolts,
-                             From.HighVolts),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format(
+            "--voltage: {:g}, expected a number from {:.3g} to {:.3g}, because "
+            "the frequency law of technology {} covers {:g} to {:g} V",
+            *Volts, Low, High, From.Name, From.LowVolts, From.HighVolts),
+        ExitCode::Usage};
   return EnergyModel(std::move(From), *Volts);
 }
 
@@ -224,11 +225,12 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
     const auto Found =
         std::ranges::find(From.Dram, Time.Event, &DramCurrents::Standard);
     if (Found == From.Dram.end())
-      return Error{"",
-                   fmt::format("technology {} has no currents of the machine's "
-                               "DRAM, '{}', expected a --technology that has",
-                               From.Name, Time.Event),
-                   ExitCode::Usage};
+      return Error{
+          "",
+          fmt::format("technology {} has no currents for the machine's DRAM, "
+                      "'{}', expected a --technology with them",
+                      From.Name, Time.Event),
+          ExitCode::Usage};
     const DramCosts C = costsOf(*Found);
     const std::vector<double> Factors =
         factors("dram " + Found->Standard, Found->Sigma);

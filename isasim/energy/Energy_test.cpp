@@ -349,10 +349,10 @@ TEST(Technology, ACommandTakesNoLessThanADeviceThatStands) {
     Json Less = document();
     Less["dram"]["ddr3-1600"]["rails"][0][Key] = 44;
     EXPECT_EQ(refusal(Less),
-              fmt::format("mine.json: key dram.ddr3-1600.rails.{} is 44, "
-                          "expected at least the 45 of a device that stands "
-                          "(idd2n, idd3n)",
-                          Key));
+              fmt::format(
+                  "mine.json: key dram.ddr3-1600.rails.{} is 44, expected at "
+                  "least 45, the standby current of the device (idd2n, idd3n)",
+                  Key));
   }
 }
 
@@ -360,8 +360,7 @@ TEST(Technology, WhatReportsPrintIsOnOneLine) {
   Json Name = document();
   Name["technology"] = "mine\npower: 0 W";
   EXPECT_EQ(refusal(Name), "mine.json: key technology has 'mine\\x0apower: 0 "
-                           "W', expected letters that can be printed on one "
-                           "line");
+                           "W', expected printable characters on one line");
   Json Source = document();
   Source["areas"]["gate"]["source"] = "\x1b[31m";
   EXPECT_NE(refusal(Source).find("key areas.gate.source has '\\x1b[31m'"),

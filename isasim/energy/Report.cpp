@@ -41,13 +41,13 @@ Json toJson(const Area &A) {
 /// there is nothing.
 static std::string doubtOf(const Energy &E, const Technology &T) {
   if (E.Volts < T.LowVolts)
-    return fmt::format("note: {:.3f} V is below the {:g} V at which the "
-                       "technology's law begins\n",
+    return fmt::format("note: {:.3f} V is below {:g} V, the lower end of the "
+                       "technology's frequency law\n",
                        E.Volts, T.LowVolts);
   const double Mhz = clockAt(T, E.Volts);
   if (E.ClockMhz > 1.01 * Mhz)
-    return fmt::format("note: at {:.3f} V the technology's law allows {:.0f} "
-                       "MHz, and the clock has {}\n",
+    return fmt::format("note: at {:.3f} V the technology's frequency law "
+                       "allows {:.0f} MHz, and the clock is {}\n",
                        E.Volts, Mhz, E.ClockMhz);
   return "";
 }

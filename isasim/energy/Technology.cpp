@@ -92,9 +92,9 @@ public:
   /// What \p Text, which reports print, may not do: look like a line of theirs.
   std::string printed(const std::string &Text, const std::string &Path) {
     if (Problem.empty() && escaped(Text) != Text)
-      Problem = fmt::format("key {} has '{}', expected letters that can be "
-                            "printed on one line",
-                            Path, escaped(Text));
+      Problem = fmt::format(
+          "key {} has '{}', expected printable characters on one line", Path,
+          escaped(Text));
     return Text;
   }
   std::vector<TechnologyRow> rows(const Json &Of, const std::string &Path,
@@ -154,9 +154,10 @@ private:
           {"idd4w", R.Idd4w, R.Idd3n},
           {"idd5", R.Idd5, R.Idd3n}})
       if (Problem.empty() && Value < Standing)
-        Problem = fmt::format("key {}rails.{} is {:g}, expected at least the "
-                              "{:g} of a device that stands (idd2n, idd3n)",
-                              Path, Key, Value, Standing);
+        Problem =
+            fmt::format("key {}rails.{} is {:g}, expected at least {:g}, the "
+                        "standby current of the device (idd2n, idd3n)",
+                        Path, Key, Value, Standing);
   }
 };
 

@@ -101,7 +101,7 @@ TEST(Config, ShortNamesAndEndsOfKeys) {
   EXPECT_EQ(setValues(C, "cores=many").error().What,
             "cores is 'many', expected a whole number, 1 to 240");
   EXPECT_EQ(setValues(C, "ways=4").error().What,
-            "'ways' is the end of several keys, expected one of "
+            "'ways' is ambiguous, expected one of "
             "timing.l2.ways, timing.llc.ways");
 }
 
@@ -114,42 +114,44 @@ TEST(Config, WhatChangesNothingIsSaidWithTheKeyThatIsWhy) {
     return idleSettings(Before, changed(Timed), Timed);
   };
   EXPECT_EQ(Idle("lanes=32"),
-            Notes({"timing.raster.lanes=32 changes no cycle of renders: "
+            Notes({"timing.raster.lanes=32 has no effect on cycles of renders: "
                    "timing.raster.banks is 16"}));
   EXPECT_EQ(Idle("lanes=32,raster.banks=32"), Notes());
   EXPECT_EQ(Idle("lanes=8"), Notes());
   EXPECT_EQ(Idle("lanes=64"),
-            Notes({"timing.raster.lanes=64 changes no cycle of renders: "
+            Notes({"timing.raster.lanes=64 has no effect on cycles of renders: "
                    "timing.raster.banks is 16"}));
   EXPECT_EQ(Idle("raster.banks=64"), Notes());
-  EXPECT_EQ(Idle("raster.lanes=16"),
-            Notes({"timing.raster.lanes=16 changes nothing: the machine has it "
-                   "already"}));
+  EXPECT_EQ(
+      Idle("raster.lanes=16"),
+      Notes(
+          {"timing.raster.lanes=16 has no effect: it is the machine's value"}));
   EXPECT_EQ(Idle("dcache_ways=2"),
-            Notes({"timing.core.dcache_ways=2 changes no cycle: "
+            Notes({"timing.core.dcache_ways=2 has no effect on cycles: "
                    "timing.core.dcache_kib is 0"}));
   EXPECT_EQ(Idle("dcache_ways=2,dcache_kib=16"), Notes());
   EXPECT_EQ(Idle("fpu_lanes=4,core.fpu=0"),
-            Notes({"timing.core.fpu_lanes=4 changes no cycle: timing.core.fpu "
-                   "is 0"}));
+            Notes({"timing.core.fpu_lanes=4 has no effect on cycles: "
+                   "timing.core.fpu is 0"}));
   EXPECT_EQ(Idle("dram=lpddr5-6400,fixed_cycles=5"),
-            Notes({"timing.dram.standard=lpddr5-6400 changes no cycle: "
+            Notes({"timing.dram.standard=lpddr5-6400 has no effect on cycles: "
                    "timing.l2.fixed_cycles is 5"}));
   EXPECT_EQ(Idle("lanes_per_warp=8,alu_lanes=8"),
-            Notes({"timing.core.alu_lanes=8 changes no cycle: lanes_per_warp "
-                   "is 8"}));
+            Notes({"timing.core.alu_lanes=8 has no effect on cycles: "
+                   "lanes_per_warp is 8"}));
   // Keys of the run change how it is computed, and nothing that is said.
   EXPECT_EQ(Idle("host_threads=0"), Notes());
   // Without the clock no key of it is read.
-  EXPECT_EQ(idleSettings(defaultMachine(), changed("l2.kib=64"), "l2.kib=64"),
-            Notes({"timing.l2.kib=64 changes no cycle: timing.enabled is 0"}));
+  EXPECT_EQ(
+      idleSettings(defaultMachine(), changed("l2.kib=64"), "l2.kib=64"),
+      Notes({"timing.l2.kib=64 has no effect on cycles: timing.enabled is 0"}));
 }
 
 TEST(Config, AnObjectIsNoKey) {
   Config C = defaultMachine();
   const auto Set = setValues(C, "raster=4");
   ASSERT_FALSE(Set);
-  EXPECT_EQ(Set.error().What, "'raster' is no key but holds some, expected "
+  EXPECT_EQ(Set.error().What, "'raster' is an object and not a key, expected "
                               "'raster.' and one of queue_depth");
 }
 
@@ -196,9 +198,10 @@ TEST(Config, ErrorsNameTheKey) {
             "file.json: timing.l2.ways is 0, expected 1 to 64");
   EXPECT_EQ(wrongIn(R"({"timing": {"dram": {"standard": 3200}}})"),
             "file.json: timing.dram.standard: expected a text");
-  EXPECT_EQ(wrongIn(R"({"timing": {"dram": {"address_map": "zigzag"}}})"),
-            "file.json: timing.dram.address_map: \"zigzag\" is no address map, "
-            "expected one of digit_sum, row_bank_column, xor");
+  EXPECT_EQ(
+      wrongIn(R"({"timing": {"dram": {"address_map": "zigzag"}}})"),
+      "file.json: timing.dram.address_map: \"zigzag\" is not an address map, "
+      "expected one of digit_sum, row_bank_column, xor");
   EXPECT_EQ(wrongIn(R"({"timing": {"l2": {"kib": 1, "ways": 17}}})"),
             "file.json: timing.l2.ways is 17, expected at most the 16 lines of "
             "1 KiB");

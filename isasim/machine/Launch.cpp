@@ -22,9 +22,8 @@ Error noMemory(std::string What) {
 }
 
 Error noLocalMemory(const std::string &Name, uint64_t Capacity) {
-  return noMemory(fmt::format("kernel {} needs more than the {} bytes of local "
-                              "memory",
-                              Name, Capacity));
+  return noMemory(fmt::format(
+      "kernel {} needs more than {} bytes of local memory", Name, Capacity));
 }
 
 Error noStacks(const Kernel &K, uint64_t Stacks) {
@@ -51,21 +50,21 @@ Expected<Success> check(const Kernel &K, const LaunchShape &S) {
     return badShape(fmt::format("work_dim is {}, expected 1 to 3", S.WorkDim));
   for (unsigned I = S.WorkDim; I < 3; ++I)
     if (S.NumGroups[I] != 1 || S.LocalSize[I] != 1)
-      return badShape(fmt::format("dimension {} is beyond work_dim, expected "
-                                  "a size of 1 there",
-                                  I));
+      return badShape(fmt::format(
+          "dimension {} exceeds work_dim, expected a size of 1", I));
   const uint64_t Items = product(S.LocalSize, MaxGroupItems);
   if (Items < 1 || Items > MaxGroupItems)
     return badShape(fmt::format(
-        "work-group of {} x {} x {} work-items, expected 1 to {} in all",
+        "work-group of {} x {} x {} work-items, expected 1 to {} in total",
         S.LocalSize[0], S.LocalSize[1], S.LocalSize[2], MaxGroupItems));
   if (product(S.NumGroups, MaxGroups) > MaxGroups)
     return badShape(
         fmt::format("more than {} work-groups in a launch", MaxGroups));
   if (K.LocalSize[0] != 0 && K.LocalSize != S.LocalSize)
-    return badShape(fmt::format(
-        "kernel {} was compiled for groups of {} x {} x {}, expected these",
-        K.Name, K.LocalSize[0], K.LocalSize[1], K.LocalSize[2]));
+    return badShape(fmt::format("kernel {} was compiled for groups of {} x {} "
+                                "x {}, expected this work-group size",
+                                K.Name, K.LocalSize[0], K.LocalSize[1],
+                                K.LocalSize[2]));
   return Success{};
 }
 
@@ -110,10 +109,9 @@ Expected<Launch> Launch::plan(const Kernel &K, const LaunchShape &S,
   // A core's share begins on a boundary of its own.
   const uint64_t Stride = alignLaunch(K.contextBytesOf(Items));
   if (Stride > UINT32_MAX)
-    return noMemory(
-        fmt::format("kernel {} keeps {} bytes a work-item across barriers, "
-                    "too much for groups of {}",
-                    K.Name, K.ContextBytes, Items));
+    return noMemory(fmt::format("kernel {} saves {} bytes per work-item across "
+                                "barriers, too much for groups of {}",
+                                K.Name, K.ContextBytes, Items));
   Launch L(K, S);
   L.ContextStride = static_cast<uint32_t>(Stride);
   L.Cores = C.cores();

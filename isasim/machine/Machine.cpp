@@ -33,11 +33,12 @@ Expected<std::unique_ptr<Machine>> Machine::create(const Config &C) {
   if (Expected<Success> Ok = validate(C); !Ok)
     return Ok.error();
   if (isTranslatorWanted(C.Runs) && !Translator::isThere())
-    return Error{"configuration",
-                 fmt::format("engine is the translator, expected 'auto' or "
-                             "'interpreter' on this host: it needs {}",
-                             Translator::needs()),
-                 ExitCode::Usage};
+    return Error{
+        "configuration",
+        fmt::format("engine is the translator, expected 'auto' or "
+                    "'interpreter' on this host: the translator needs {}",
+                    Translator::needs()),
+        ExitCode::Usage};
   Expected<std::unique_ptr<Memory>> Mem = Memory::create(C);
   if (!Mem)
     return Mem.error();

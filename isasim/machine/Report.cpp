@@ -40,10 +40,10 @@ constexpr uint32_t Unimp = 0xC0001073;
 /// What a user should know of \p T beyond its cause; mostly nothing.
 std::string_view explanation(const Trap &T) {
   if (T.Instruction == Unimp)
-    return "  unimp: work-items of one group would go to different barriers, "
-           "or the program traps itself\n";
+    return "  unimp: work-items of one group would reach different barriers, "
+           "or the program executes a trap\n";
   if (T.Cause == TrapCause::DivergentBranch)
-    return "  all active lanes must go the same way at a branch without split; "
+    return "  a branch without vx_split must be uniform across active lanes; "
            "in a kernel, a barrier depends on it\n";
   return "";
 }

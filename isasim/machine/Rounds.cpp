@@ -349,16 +349,16 @@ bool Machine::Impl::decideEnd(RunResult &R) {
       CanGoOn |= S.Why == Stop::Ready || S.Why == Stop::RasterCsr;
   if (!CanGoOn || Hang.check(Cores, Progress)) {
     R.End = Outcome::Hang;
-    R.Report = (CanGoOn ? "no warp can make progress: the machine repeats a "
-                          "state with nothing changed\n"
-                        : "all warps wait for each other\n") +
-               warpReport(Cores, Program);
+    R.Report =
+        (CanGoOn
+             ? "no warp can make progress: the state of the machine repeats\n"
+             : "all warps wait for each other\n") +
+        warpReport(Cores, Program);
     return true;
   }
   std::string Limit;
   if (Shape.MaxInstructions && retired() >= Shape.MaxInstructions)
-    Limit = fmt::format("{} instructions, as many as may run",
-                        Shape.MaxInstructions);
+    Limit = fmt::format("{} instructions, the maximum", Shape.MaxInstructions);
   else
     Limit = Budget.reason();
   if (!Limit.empty()) {

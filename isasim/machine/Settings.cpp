@@ -34,9 +34,9 @@ static std::vector<const Key *> keysNamed(const std::string &Name) {
 
 static std::string unknownKey(const std::string &Path) {
   if (const auto Names = namesIn(Path + "."); !Names.empty())
-    return fmt::format("'{0}' is no key but holds some, expected '{0}.' and "
-                       "one of {1}",
-                       Path, fmt::join(Names, ", "));
+    return fmt::format(
+        "'{0}' is an object and not a key, expected '{0}.' and one of {1}",
+        Path, fmt::join(Names, ", "));
   // What stands in the innermost object that there is.
   std::string Prefix = Path;
   do
@@ -122,9 +122,8 @@ static Expected<Success> setValue(Config &C, const Setting &Of,
     Paths.reserve(Named.size());
     for (const Key *K : Named)
       Paths.push_back(K->Path);
-    return Fail(fmt::format("'{}' is the end of several keys, expected one of "
-                            "{}",
-                            Name, fmt::join(Paths, ", ")));
+    return Fail(fmt::format("'{}' is ambiguous, expected one of {}", Name,
+                            fmt::join(Paths, ", ")));
   }
   const Key *const K = Named.front();
   if (K->WordOf) {
@@ -188,11 +187,11 @@ std::vector<std::string> idleSettings(const Config &Before, const Config &After,
     const std::string Is = fmt::format("{}={}", K.Path, textOf(K, After));
     if (textOf(K, Before) == textOf(K, After)) {
       Said.push_back(
-          fmt::format("{} changes nothing: the machine has it already", Is));
+          fmt::format("{} has no effect: it is the machine's value", Is));
       continue;
     }
     for (const KeyLimit &L : limitsOf(K, Before, After))
-      Said.push_back(fmt::format("{} changes no cycle{}{}: {} is {}", Is,
+      Said.push_back(fmt::format("{} has no effect on cycles{}{}: {} is {}", Is,
                                  L.Of.empty() ? "" : " of ", L.Of, L.By->Path,
                                  textOf(*L.By, After)));
   }

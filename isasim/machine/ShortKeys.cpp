@@ -22,9 +22,9 @@ std::string setCores(Config &C, uint64_t Number, bool KeepsSockets) {
   if (Number == 0 || Number % Of != 0)
     return fmt::format(
         "cores is {}, expected a multiple of {}{}", Number, Of,
-        KeepsSockets ? ", the sockets"
-                     : ": clusters times cores_per_socket, which can be set, "
-                       "too");
+        KeepsSockets
+            ? ", the sockets"
+            : ": clusters times cores_per_socket, which can also be set");
   (KeepsSockets ? C.CoresPerSocket : C.SocketsPerCluster) =
       static_cast<unsigned>(Number / Of);
   return {};
@@ -35,9 +35,9 @@ constexpr ShortKey All[] = {
      "lanes of a rasterizer; those of a core are lanes_per_warp"},
     {"dram", "timing.dram.standard", nullptr, "standard of the DRAM"},
     {"rasterizers", "", setRasterizers,
-     "all of the machine, one a socket: sets sockets_per_cluster"},
+     "number in the machine, one per socket: sets sockets_per_cluster"},
     {"cores", "", setCores,
-     "all of the machine: sets sockets_per_cluster, or cores_per_socket if "
+     "number in the machine: sets sockets_per_cluster, or cores_per_socket if "
      "rasterizers or sockets_per_cluster are given, too"},
 };
 

@@ -260,8 +260,7 @@ std::string ImageParser::readAtomicPlaces(const Elf32_Shdr &Table) {
   std::vector<uint32_t> &Places = Result->AtomicPlaces;
   // Sections share no bytes.
   if (Places.size() * sizeof(uint32_t) + Words->size() > File.size())
-    return fmt::format("sections {} of more bytes than the file has",
-                       AtomicsSection);
+    return fmt::format("sections {} are larger than the file", AtomicsSection);
   for (uint32_t At = 0; At + sizeof(uint32_t) <= Words->size();
        At += sizeof(uint32_t))
     // Each word says how far from itself an instruction lies.
@@ -355,7 +354,7 @@ std::string ImageParser::readKernel(uint32_t Address) {
   else
     return Where + "the name is not a string of the image";
   if (!isCode(Record->Entry))
-    return Where + fmt::format("entry 0x{:08x} of '{}' is not code",
+    return Where + fmt::format("entry point 0x{:08x} of '{}' is not code",
                                Record->Entry, K.Name);
   if (Record->NumArgs > MaxArgs)
     return Where + fmt::format("'{}' has {} arguments, expected at most {}",
@@ -372,8 +371,8 @@ std::string ImageParser::readKernel(uint32_t Address) {
                                K.Name, Local[0], Local[1], Local[2]);
   NumArgs += Record->NumArgs;
   if (NumArgs * BytesPerArg > File.size())
-    return Where + fmt::format("{} arguments of kernels so far in a file of {} "
-                               "bytes, expected at most one for {}",
+    return Where + fmt::format("{} kernel arguments in a file of {} bytes, "
+                               "expected at most one per {} bytes",
                                NumArgs, File.size(), BytesPerArg);
   K.Entry = Record->Entry;
   K.ArgsBytes = Record->ArgsBytes;
@@ -433,12 +432,12 @@ std::string ImageParser::readVariables(uint32_t Address) {
   // Kernels share no table of pointers.
   PointerBytes += TableBytes;
   if (PointerBytes > File.size())
-    return Where + "more pointers so far than the file has room for";
+    return Where + "more pointers than fit in the file";
   for (uint32_t N = 0; N != Record->NumPointers; ++N) {
     const auto Offset =
         load<uint32_t>(Record->Pointers + N * uint32_t{sizeof(uint32_t)});
     if (uint64_t{*Offset} + sizeof(uint32_t) > Record->ContentsBytes)
-      return Where + fmt::format("pointer {} lies outside of the variables", N);
+      return Where + fmt::format("pointer {} is outside the variables", N);
   }
   Owner->Variables = {Record->Bytes,    Record->Alignment,
                       Record->Contents, Record->ContentsBytes,

@@ -20,9 +20,8 @@ Expected<Success> Image::checkLanes(uint32_t Lanes, std::string_view Of) const {
     if (K.Lanes != 0 && K.Lanes != Lanes && (Of.empty() || K.Name == Of))
       return Error{Name,
                    fmt::format("kernel '{}' was compiled for warps of {} "
-                               "lanes, expected {} as the machine has (the "
-                               "compiler takes VORION_SET and "
-                               "VORION_CONFIG, too)",
+                               "lanes, expected {} as in the machine (the "
+                               "compiler reads VORION_SET and VORION_CONFIG)",
                                K.Name, K.Lanes, Lanes)};
   return Success{};
 }

@@ -113,10 +113,9 @@ TEST(Image, KnowsForHowManyLanesItIs) {
   const auto Wrong = (*I)->checkLanes(16);
   ASSERT_FALSE(Wrong);
   EXPECT_EQ(Wrong.error().Where, "x.elf");
-  EXPECT_EQ(Wrong.error().What, "kernel 'add' was compiled for warps of 8 "
-                                "lanes, expected 16 as the machine has (the "
-                                "compiler takes VORION_SET and VORION_CONFIG, "
-                                "too)");
+  EXPECT_EQ(Wrong.error().What,
+            "kernel 'add' was compiled for warps of 8 lanes, expected 16 as in "
+            "the machine (the compiler reads VORION_SET and VORION_CONFIG)");
   EXPECT_FALSE((*I)->checkLanes(16, "add"));
   EXPECT_TRUE((*I)->checkLanes(16, "another"));
   O.Segments[1].Words[10] = 0;
@@ -192,8 +191,8 @@ TEST(Image, RefusesBadKernelTables) {
                         "of the image");
   O = withKernel();
   O.Segments[1].Words[1] = Table; // entry
-  EXPECT_EQ(wrongIn(O), "kernel table at 0x80001000: entry 0x80001000 of 'add' "
-                        "is not code");
+  EXPECT_EQ(wrongIn(O), "kernel table at 0x80001000: entry point 0x80001000 of "
+                        "'add' is not code");
   O = withKernel();
   O.Segments[1].Words[3] = 1000000; // number of arguments
   EXPECT_NE(wrongIn(O).find("1000000 arguments"), std::string::npos);
@@ -251,7 +250,7 @@ TEST(Image, RefusesBadTablesOfVariables) {
   EXPECT_EQ(With(4, 0x10000), Where + "malformed");    // bytes of them
   EXPECT_EQ(With(5, 0x80FFFFFF), Where + "malformed"); // pointers
   EXPECT_EQ(With(6, 0x40000001), Where + "malformed"); // number of them
-  EXPECT_EQ(With(9, 5), Where + "pointer 0 lies outside of the variables");
+  EXPECT_EQ(With(9, 5), Where + "pointer 0 is outside the variables");
   ElfOptions O = withVariables();
   O.Symbols.back().second -= 4;
   EXPECT_EQ(wrongIn(O),
@@ -372,8 +371,7 @@ TEST(Image, KnowsWhichLoadsAndStoresAreAtomic) {
   O.Atomics.assign(1000, 0);
   EXPECT_EQ(wrongIn(O), "");
   O.AtomicSections = 1000;
-  EXPECT_EQ(wrongIn(O),
-            "sections vorion_atomics of more bytes than the file has");
+  EXPECT_EQ(wrongIn(O), "sections vorion_atomics are larger than the file");
 }
 
 TEST(Image, EveryTruncationIsAnError) {

@@ -74,12 +74,11 @@ Expected<Mapping> Mapping::make(uint64_t Bytes) {
     const int Cause = errno;
     if (At != MAP_FAILED)
       munmap(At, All);
-    return Error{
-        "",
-        fmt::format("cannot map {} bytes of device memory: {}, expected "
-                    "a machine that has them",
-                    Bytes, std::strerror(Cause)),
-        ExitCode::LimitReached};
+    return Error{"",
+                 fmt::format("cannot map {} bytes of device memory: {}, "
+                             "expected a host with enough memory",
+                             Bytes, std::strerror(Cause)),
+                 ExitCode::LimitReached};
   }
   return Mapping(Base, All, Base + Guard);
 }

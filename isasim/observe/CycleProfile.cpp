@@ -83,10 +83,9 @@ std::string CycleProfile::report() const {
   std::string Text = fmt::format(
       "# vorion-profile 1\n"
       "# machine: {}\n"
-      "# cycles: of all cores together; then per cent of all "
-      "cycles, and the same by reason\n"
-      "# a cycle in which a core waits is the instruction's "
-      "that waits\n\n",
+      "# cycles: sum over all cores; then percent of all cycles, in total and "
+      "by reason\n"
+      "# a stall cycle of a core is attributed to the stalled instruction\n\n",
       clockedMachine(nameOf(C).Name, C.Timing.ClockMhz, ClockVersion));
   Text += fmt::format("{}{}total\n", Shown.heading(), Shown.row(All));
   Text += fmt::format("{}no instruction: start and end\n", Shown.row(Nowhere));

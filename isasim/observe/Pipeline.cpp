@@ -133,8 +133,8 @@ Expected<Success> PipelineTool::finished() const {
   if (!HasRun || !Instructions.empty())
     return Success{};
   return Error{"",
-               fmt::format("pipeline: first={} never came, core {} issued {} "
-                           "instructions with the clock on",
+               fmt::format("pipeline: first={} was not reached, core {} issued "
+                           "{} instructions with timing on",
                            Options.First, Options.Core, Issued),
                ExitCode::Usage};
 }

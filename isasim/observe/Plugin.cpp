@@ -40,11 +40,11 @@ Expected<const Plugin *> load(const std::string &Path) {
     return Error{Path, fmt::format("is a plugin of version {}, expected {}",
                                    Found->Version, PluginVersion)};
   if (Found->Layout != pluginLayout())
-    return Error{Path, "was built with other headers, expected those of this "
-                       "simulator"};
+    return Error{Path, "was built with headers of another version, expected "
+                       "those of this simulator"};
   if (!Found->Make && !Found->Exp.Evaluate)
     return Error{Path, "has neither an observer nor an exponential unit, "
-                       "expected one of them"};
+                       "expected at least one"};
   return Found;
 }
 
@@ -63,8 +63,9 @@ Expected<Success> plug(const std::string &Path, const ExpUnitPlugin &Unit,
                                    Replaces, fmt::join(Names, ", "))};
   }
   if (raster::PluggedExp && raster::PluggedExp != Unit.Evaluate)
-    return Error{Path, "has a second exponential unit, expected one in a "
-                       "process"};
+    return Error{
+        Path,
+        "has a second exponential unit, expected at most one per process"};
   if (!raster::PluggedExp) { // another machine may read it already
     To.Report(
         fmt::format("{}: computes the exponential unit '{}'", Path, Replaces));
@@ -105,7 +106,7 @@ Expected<std::unique_ptr<Tool>> make(const std::string &Text,
       continue;
     All.push_back((*Found)->Make());
     if (!All.back())
-      return Error{Path, "made no observer, expected one"};
+      return Error{Path, "created no observer, expected one"};
   }
   return std::unique_ptr<Tool>(std::make_unique<PluginTool>(std::move(All)));
 }

@@ -118,7 +118,7 @@ std::string Profile::report() const {
       "splits: vx_split, vx_pred;\n"
       "# diverg.: those that divided the lanes; accesses: "
       "loads, stores, atomics;\n"
-      "# lines/a.: 64-byte lines of memory that each asked for\n\n";
+      "# lines/a.: 64-byte lines of memory that each accessed\n\n";
   Text += fmt::format("{}{}total\n", Heading, row(All, All.Warp));
   return Text + Places.listing(std::string(Heading),
                                [&](const Cost &C) { return row(C, All.Warp); });
@@ -174,7 +174,7 @@ private:
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,
                                      const ToolOutput &To) {
   if (Text == StandardOutput && !To.Print)
-    return Error{"", "the profile has nowhere to go, expected a file name",
+    return Error{"", "the profile has no output file, expected a file name",
                  ExitCode::Usage};
   return std::unique_ptr<Tool>(std::make_unique<ProfileTool>(Text, To));
 }

@@ -90,11 +90,12 @@ Expected<RegionOptions> RegionOptions::parse(std::string_view Text) {
     Text.remove_prefix(More ? Comma + 1 : 0);
   }
   if (O.isEmpty())
-    return Error{"",
-                 fmt::format("region: to={} comes no later than from={}, "
-                             "expected a launch behind it",
-                             O.To->Text, O.From.Text),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format(
+            "region: to={} is not after from={}, expected a later launch",
+            O.To->Text, O.From.Text),
+        ExitCode::Usage};
   return O;
 }
 
@@ -149,11 +150,12 @@ void RegionTool::choosePhase() {
     Now = Phase::Behind;
   if (Now < Phase::Counted && isAt(Options.From)) {
     if (Options.Warm && Now == Phase::Before)
-      Problem = Error{"",
-                      fmt::format("region: from={} comes before warm={}, "
-                                  "expected it behind",
-                                  Options.From.Text, Options.Warm->Text),
-                      ExitCode::Usage};
+      Problem = Error{
+          "",
+          fmt::format(
+              "region: from={} is before warm={}, expected a later launch",
+              Options.From.Text, Options.Warm->Text),
+          ExitCode::Usage};
     Now = Phase::Counted;
   }
   Counted += Now == Phase::Counted;
@@ -164,8 +166,8 @@ void RegionTool::choosePhase() {
 void RegionTool::begin() {
   if (!Device->rasterState()) {
     Problem = Error{"",
-                    "a region cannot begin where a rasterizer still has a "
-                    "command of an earlier launch, expected another beginning",
+                    "a region cannot start while a rasterizer has a command of "
+                    "an earlier launch, expected another start",
                     ExitCode::Usage};
     Now = Phase::Behind;
     return;
@@ -220,17 +222,19 @@ Expected<Success> RegionTool::finished() const {
                         : Now == Phase::Counted && Options.To ? &*Options.To
                                                               : nullptr;
   if (Missing)
-    return Error{"",
-                 fmt::format("region: {}={} never came, expected one of {}",
-                             Missing == &Options.From ? "from" : "to",
-                             Missing->Text, lastMarks()),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format("region: {}={} was not reached, expected one of {}",
+                    Missing == &Options.From ? "from" : "to", Missing->Text,
+                    lastMarks()),
+        ExitCode::Usage};
   if (Now == Phase::Counted && Options.Count && Counted < *Options.Count)
-    return Error{"",
-                 fmt::format("region: count={} never came, launches since "
-                             "from={}: {}",
-                             *Options.Count, Options.From.Text, Counted),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format(
+            "region: count={} was not reached, launches since from={}: {}",
+            *Options.Count, Options.From.Text, Counted),
+        ExitCode::Usage};
   return Success{};
 }
 

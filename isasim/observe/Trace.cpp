@@ -148,7 +148,7 @@ Expected<TraceRequest> TraceRequest::parse(std::string_view Text) {
   if (Colon != std::string_view::npos)
     R.File = Text.substr(Colon + 1);
   const Expected<uint32_t> Listed = parseNameList(
-      "trace category", Text.substr(0, Colon), Names, ", with :FILE behind");
+      "trace category", Text.substr(0, Colon), Names, ", followed by :FILE");
   if (!Listed)
     return Listed.error();
   R.Categories = *Listed;

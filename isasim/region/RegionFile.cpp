@@ -39,10 +39,10 @@ public:
 
 private:
   Error damaged() const {
-    return {Where,
-            fmt::format("record {} is damaged, expected a region as it was "
-                        "saved",
-                        Number)};
+    return {
+        Where,
+        fmt::format("record {} is damaged, expected an unmodified region file",
+                    Number)};
   }
   Expected<Success> machine(ByteReader R);
   Expected<Success> image(ByteReader R);
@@ -71,7 +71,7 @@ Expected<Success> RegionParser::parse(ByteReader Records) {
       return Taken;
   }
   if (Region.Launches.empty())
-    return Error{Where, "no launch in it, expected a region that was reached"};
+    return Error{Where, "no launch, expected a region that was reached"};
   return Success{};
 }
 
@@ -126,15 +126,15 @@ Expected<SavedRegion> parseRegion(std::span<const std::byte> File,
   ByteReader R(File);
   const auto Begin = R.raw(Magic.size());
   if (R.good() && !std::ranges::equal(Begin, std::as_bytes(std::span(Magic))))
-    return Error{Where, fmt::format("a region of another version, expected "
-                                    "version {}",
-                                    Magic.substr(VersionAt, 1))};
+    return Error{
+        Where, fmt::format("an unsupported region version, expected version {}",
+                           Magic.substr(VersionAt, 1))};
   uint64_t Bytes = 0;
   R.value(Bytes);
   const size_t Head = Magic.size() + sizeof(Bytes);
   if (!R.good() || File.size() - Head != Bytes)
-    return Error{Where, fmt::format("{} bytes, expected {}: the region is cut "
-                                    "off, or was not saved to its end",
+    return Error{Where, fmt::format("{} bytes, expected {}: the region is "
+                                    "truncated, or was not completely saved",
                                     File.size(), Head + Bytes)};
   SavedRegion Region;
   if (const Expected<Success> Ok =
@@ -152,12 +152,12 @@ Expected<Success> checkMachine(const SavedRegion &R, const Config &C,
   const std::vector<std::string> Changes = changesOf(R.Machine, Same);
   if (Changes.empty())
     return Success{};
-  return Error{Where,
-               fmt::format("{} is another machine than it was saved on, "
-                           "expected nothing but 'timing' and "
-                           "'raster.queue_depth' to differ",
-                           Changes.front()),
-               ExitCode::Usage};
+  return Error{
+      Where,
+      fmt::format("{} differs from the machine that saved the region, expected "
+                  "differences in 'timing' and 'raster.queue_depth' only",
+                  Changes.front()),
+      ExitCode::Usage};
 }
 
 Expected<RegionWriter> RegionWriter::create(const std::string &Path,

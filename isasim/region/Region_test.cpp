@@ -151,12 +151,13 @@ TEST(Region, IsTimedAlone) {
 
 TEST(Region, WhatNeverComesIsTold) {
   for (const auto &[Text, Message] :
-       {std::pair("from=third", "region: from=third never came, expected one "
-                                "of first:2, second:1"),
-        std::pair("from=2,to=second:2", "region: to=second:2 never came, "
+       {std::pair("from=third", "region: from=third was not reached, expected "
+                                "one of first:2, second:1"),
+        std::pair("from=2,to=second:2", "region: to=second:2 was not reached, "
                                         "expected one of first:2, second:1"),
-        std::pair("from=2,count=3",
-                  "region: count=3 never came, launches since from=2: 2")}) {
+        std::pair(
+            "from=2,count=3",
+            "region: count=3 was not reached, launches since from=2: 2")}) {
     TwoPrograms P(Text);
     P.run(3);
     const auto Came = P.Watch->finished();
@@ -215,9 +216,9 @@ TEST(Region, SizesBeyondTheFileAreTold) {
       const auto R = parseRegion(sealedRegion(std::move(Bad)), "r");
       ASSERT_FALSE(R) << Number;
       EXPECT_EQ(R.error().What,
-                fmt::format("record {} is damaged, expected a region as it was "
-                            "saved",
-                            Number));
+                fmt::format(
+                    "record {} is damaged, expected an unmodified region file",
+                    Number));
     }
   }
   EXPECT_EQ(Number, 7U); // a machine, two images, four launches

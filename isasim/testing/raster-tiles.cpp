@@ -259,15 +259,16 @@ std::vector<RasterTile> readTiles(const Arguments &A) {
 int run(const Arguments &A) {
   std::vector<RasterTile> All = A.File.empty() ? testTiles() : readTiles(A);
   if (All.empty())
-    return reportError("isasim-raster-tiles",
-                       {A.File, "has no tiles, expected those of the plugin "
-                                "isasim-tile-writer"});
+    return reportError(
+        "isasim-raster-tiles",
+        {A.File,
+         "has no tiles, expected output of the plugin isasim-tile-writer"});
   for (RasterTile &T : All)
     if (!judge(T, A.Latency) || !T.write(stdout))
       return reportError("isasim-raster-tiles",
-                         {T.What.Name.data(), "cannot be rendered or written, "
-                                              "expected a tile of the plugin "
-                                              "isasim-tile-writer"});
+                         {T.What.Name.data(),
+                          "cannot be rendered or written, expected a tile "
+                          "of the plugin isasim-tile-writer"});
   return 0;
 }
 
@@ -275,22 +276,23 @@ int run(const Arguments &A) {
 
 int main(int Count, char **Values) {
   CLI::App App("Writes tiles with their pixels and cycles to standard output, "
-               "for the rasterizer in SystemVerilog (docs/rtl.md): those of "
-               "its tests, or of a run.",
+               "as test vectors of the SystemVerilog rasterizer (docs/rtl.md): "
+               "those of its tests, or those of a run.",
                "isasim-raster-tiles");
   App.footer(std::string(ExitCodeHelp));
   Arguments A;
-  App.add_option("cycles", A.Latency, "After so many, memory answers")
-      ->required();
+  App.add_option("cycles", A.Latency, "Memory latency in cycles")->required();
   takesFile(App.add_option("file", A.File,
-                           "What the plugin isasim-tile-writer wrote "
-                           "(default: the tiles of the tests)"));
-  App.add_option("every", A.Every, "Of its tiles one in so many (default 1)")
+                           "Output of the plugin isasim-tile-writer (default: "
+                           "the tiles of the tests)"));
+  App.add_option("every", A.Every,
+                 "Write one of N tiles of the file (default 1)")
       ->check(isBetween(uint64_t{1}, uint64_t{1} << 32));
-  App.add_option("--random", A.Random,
-                 "Of its tiles so many, drawn at random; all if it has fewer")
+  App.add_option(
+         "--random", A.Random,
+         "Write N tiles of the file, sampled at random; all if it has fewer")
       ->check(isBetween(uint64_t{1}, uint64_t{1} << 20));
-  App.add_option("--seed", A.Seed, "For --random (default 1)")
+  App.add_option("--seed", A.Seed, "Seed of --random (default 1)")
       ->check(isBetween(uint64_t{0}, MostSeed));
   return runTool("isasim-raster-tiles", [&] {
     if (const auto Ended = parseCommandLine(App, {Values + 1, Values + Count}))

@@ -141,13 +141,12 @@ std::string toText(const TimeReport &R) {
            : 0.0);
   if (R.StaleLoads)
     Text += fmt::format(
-        "stale        {} loads hit lines of data caches that others had "
+        "stale        {} loads hit data cache lines that other cores had "
         "written since\n",
         R.StaleLoads);
   if (R.CommandsLeft)
-    Text +=
-        fmt::format("left         {} tile commands that nobody waited for\n",
-                    R.CommandsLeft);
+    Text += fmt::format("pending      {} tile commands without a wait\n",
+                        R.CommandsLeft);
   return Text;
 }
 

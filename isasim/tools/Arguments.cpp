@@ -53,7 +53,7 @@ Expected<KernelInput> hexBytes(std::string_view All, std::string_view Text) {
     const char *Last = First + std::min<size_t>(2, Text.size() - At);
     const auto R = std::from_chars(First, Last, Value, 16);
     if (Last - First != 2 || R.ec != std::errc() || R.ptr != Last)
-      return bad(All, "two hexadecimal digits a byte");
+      return bad(All, "two hexadecimal digits per byte");
     In.Bytes.push_back(static_cast<std::byte>(Value));
   }
   return In;
@@ -141,7 +141,7 @@ Expected<KernelRequest> parseRequest(std::string_view Text,
   if (!Object)
     return Object.error();
   if (!Object->is_object())
-    return Error{Where, fmt::format("no JSON object, expected {}", Wanted)};
+    return Error{Where, fmt::format("not a JSON object, expected {}", Wanted)};
   KernelRequest R;
   auto Sizes = [](const Json &Value, std::array<uint32_t, 3> &To) -> unsigned {
     if (!Value.is_array() || Value.empty() || Value.size() > 3)

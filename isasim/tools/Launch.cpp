@@ -86,8 +86,8 @@ Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
     return static_cast<uint32_t>(Address);
   }
   return Error{"",
-               fmt::format("{}: {} bytes, but no free part of the {} bytes of "
-                           "global memory is as large",
+               fmt::format("{}: {} bytes, more than the largest free block of "
+                           "the {} bytes of global memory",
                            What, Bytes, globalBytes(Device->config())),
                ExitCode::LimitReached};
 }
@@ -173,14 +173,16 @@ Expected<Success> KernelLaunch::write(const Launch &L, const Kernel &K) {
   const LaunchParts &Bytes = L.bytes();
   StacksBegin = L.stacksBegin();
   if (NextFree > StacksBegin)
-    return Error{"",
-                 fmt::format("kernel {} needs stacks from 0x{:x} on, where "
-                             "its buffers lie",
-                             K.Name, StacksBegin),
-                 ExitCode::LimitReached};
+    return Error{
+        "",
+        fmt::format(
+            "kernel {} needs stacks from 0x{:x} on, which overlap its buffers",
+            K.Name, StacksBegin),
+        ExitCode::LimitReached};
   for (const auto &[Part, What] :
        {std::pair(&LaunchParts::Args, "the arguments"),
-        std::pair(&LaunchParts::Context, "the memory kept across barriers"),
+        std::pair(&LaunchParts::Context,
+                  "the memory for values saved across barriers"),
         std::pair(&LaunchParts::Print, "the print buffer"),
         std::pair(&LaunchParts::Block, "the launch block")}) {
     const Expected<uint32_t> Address = reserve(Bytes.*Part, What);
@@ -190,7 +192,7 @@ Expected<Success> KernelLaunch::write(const Launch &L, const Kernel &K) {
   }
   if (K.Variables.Bytes != 0) {
     const Expected<uint32_t> Address =
-        reserve(Bytes.Variables, "the variables of program scope");
+        reserve(Bytes.Variables, "the program-scope variables");
     if (!Address)
       return Address.error();
     Parts.Variables = placeOf(K.Variables, *Address);

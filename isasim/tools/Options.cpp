@@ -56,7 +56,7 @@ void declareWatch(CLI::App &App, const SessionOption &S, std::string &To) {
     writesFiles(Added);
   if (!S.Names.empty())
     takesSomeOf(Added, {S.Names.begin(), S.Names.end()});
-  Added->group("Watching a run (docs/debugging.md)");
+  Added->group("Observing a run (docs/debugging.md)");
 }
 
 /// What \p Check accepts, without its name in --help.
@@ -67,12 +67,11 @@ void declareLaunch(CLI::App &App, Options &O) {
                  "the kernel to run, if the program has several")
       ->type_name("NAME")
       ->group("Running a kernel");
-  App.add_option("--global", O.Global, "how many work-items run it")
+  App.add_option("--global", O.Global, "number of work-items")
       ->type_name("X[,Y[,Z]]")
       ->group("Running a kernel");
-  App.add_option(
-         "--local", O.Local,
-         "work-items in a group (default: the kernel's own, or at most 64)")
+  App.add_option("--local", O.Local,
+                 "work-group size (default: the kernel's own, or at most 64)")
       ->type_name("X[,Y[,Z]]")
       ->group("Running a kernel");
   App.add_option("--arg", O.Args,
@@ -81,10 +80,10 @@ void declareLaunch(CLI::App &App, Options &O) {
       ->type_name("ARG")
       ->group("Running a kernel")
       ->allow_extra_args(false);
-  takesFile(
-      App.add_option("--args", O.ArgsFile,
-                     "all of this as JSON: {\"kernel\", \"global\", \"local\", "
-                     "\"args\": [\"i32:5\", ...]}"))
+  takesFile(App.add_option("--args", O.ArgsFile,
+                           "the options of this group as JSON: {\"kernel\", "
+                           "\"global\", \"local\", "
+                           "\"args\": [\"i32:5\", ...]}"))
       ->group("Running a kernel")
       ->excludes("--kernel")
       ->excludes("--global")
@@ -98,12 +97,13 @@ void declareLaunch(CLI::App &App, Options &O) {
 void declareTestPrograms(CLI::App &App, Options &O) {
   App.add_flag("--one-hart", O.OneHart, "one core of one warp of one lane")
       ->group("Test programs (docs/test-programs.md)");
-  writesFile(App.add_option("--signature", O.SignatureFile,
-                            "write the words from begin_signature to "
-                            "end_signature"))
+  writesFile(
+      App.add_option(
+          "--signature", O.SignatureFile,
+          "write the memory words from begin_signature to end_signature"))
       ->group("Test programs (docs/test-programs.md)");
   App.add_option("--signature-granularity", O.SignatureGranularity,
-                 "bytes a line of it (default: 4)")
+                 "bytes per line of the signature (default: 4)")
       ->type_name("N")
       ->group("Test programs (docs/test-programs.md)")
       ->check(isOneOf({"1", "2", "4", "8", "16"}));
@@ -113,7 +113,7 @@ void declareTestPrograms(CLI::App &App, Options &O) {
 
 void declareOptions(CLI::App &App, Options &O) {
   App.formatter(std::make_shared<HelpFormatter>());
-  App.set_help_flag("-h,--help", "print this and exit");
+  App.set_help_flag("-h,--help", "print this help and exit");
   App.set_version_flag(
       "--version", [&App] { return versionLine(App.get_name()); },
       "print the version and exit");
@@ -122,56 +122,59 @@ void declareOptions(CLI::App &App, Options &O) {
                            "region"))
       ->type_name("");
   App.add_option("--set", O.Set,
-                 "change the configuration (queue_depth=8, cores=16; else "
-                 "VORION_SET)")
+                 "override configuration keys, e.g. queue_depth=8,cores=16 "
+                 "(default: VORION_SET)")
       ->type_name("KEY=VALUE,...")
       ->allow_extra_args(false);
   App.add_flag("--print-config-schema", O.PrintSchema,
                "print the JSON schema of configurations and exit");
-  App.add_option("--config", O.ConfigText,
-                 "the machine: its name, or a configuration, JSON (else "
-                 "VORION_CONFIG)");
+  App.add_option(
+      "--config", O.ConfigText,
+      "the machine: a name, or a JSON configuration (default: VORION_CONFIG)");
   takesFile(App.get_option("--config"), {".json"})->type_name("NAME|FILE");
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
-               "print a configuration to start from, and exit");
+               "print the default configuration and exit");
   App.add_flag("--print-timing-parameters", O.PrintTiming,
-               "print what --time goes by, and --set's short names");
+               "print the parameters of the timing model and the short names "
+               "of --set, and exit");
   App.add_flag("--time", O.Time,
-               "say how long the run takes on the machine (docs/model.md)");
-  App.add_option("--clock", O.ClockMhz,
-                 "say so at this clock (default: the machine's, 530)")
+               "report the modelled execution time (docs/model.md)");
+  App.add_option(
+         "--clock", O.ClockMhz,
+         "clock frequency of the timing model (default: the machine's, 530)")
       ->type_name("MHZ")
       ->check(quietly(isBetween(1U, MostClockMhz)));
-  App.add_flag("--energy", O.Energy,
-               "say how long, and how much energy it takes (docs/energy.md)");
-  takesFile(
-      App.add_option("--technology", O.TechnologyFile,
-                     "energies and areas (turns --energy on; default: 16 nm)"),
-      {".json"});
-  App.add_option(
-         "--voltage", O.Volts,
-         "the chip's voltage (turns --energy on; default: what the clock "
-         "needs)")
+  App.add_flag(
+      "--energy", O.Energy,
+      "report the modelled execution time and energy (docs/energy.md)");
+  takesFile(App.add_option("--technology", O.TechnologyFile,
+                           "energies and areas of a process node (implies "
+                           "--energy; default: 16 nm)"),
+            {".json"});
+  App.add_option("--voltage", O.Volts,
+                 "supply voltage (implies --energy; default: what the clock "
+                 "frequency needs)")
       ->type_name("V");
   App.add_flag("--print-technology", O.PrintTechnology,
-               "print the default technology to start from, and exit");
-  App.add_flag("--print-energy-parameters", O.PrintEnergy,
-               "print what --energy goes by, with sources, and exit");
+               "print the default technology file and exit");
+  App.add_flag(
+      "--print-energy-parameters", O.PrintEnergy,
+      "print the parameters of the energy model with their sources, and exit");
   App.add_option("--max-instructions", O.MaxInstructions,
-                 "end the run after N warp instructions (0: never)")
+                 "stop after N warp instructions (0: no limit)")
       ->type_name("N")
       ->check(quietly(isBetween<uint64_t>(0, 1'000'000'000'000'000'000)));
   App.add_option("--threads", O.Threads,
-                 "host threads, at most one a processor (default: all; changes "
-                 "no result)")
+                 "host threads (default and maximum: one per processor; "
+                 "results do not depend on it)")
       ->type_name("N");
   declareLaunch(App, O);
   declareTestPrograms(App, O);
   for (const SessionOption &S : sessionOptions())
     declareWatch(App, S, O.Watch.*S.Text);
   App.footer(std::string(ExitCodeHelp) +
-             "\na program that exits with N above 0 ends this with N, too, or "
-             "with 1 if N is in the\nlist or above 255");
+             "\na nonzero exit code of the program is passed on, or replaced "
+             "by 1 if it is in this\nlist or above 255");
 }
 
 std::vector<std::string> argumentsOf(int Argc, char **Argv) {

@@ -71,13 +71,13 @@ runRegion(const SavedRegion &R, Machine &M, Session &Watch, bool ChoosesClock,
   if (!Memory)
     return Memory.error();
   if (!M.setRasterState(R.RasterState))
-    return Error{Where, "rasterizers of another machine, expected those of its "
-                        "configuration"};
+    return Error{Where, "rasterizer state of another machine, expected that of "
+                        "its configuration"};
   TimeTable Times;
   RunResult Result;
   for (const SavedLaunch &L : R.Launches) {
     if (!prepare(R, L, M, *Memory))
-      return Bad(L, "memory that its machine does not have");
+      return Bad(L, "memory outside the machine's");
     if (ChoosesClock)
       M.setClocking(L.IsCounted ? Clocking::On : Clocking::WarmUp);
     Watch.runBegins(L.Name, L.Block);
@@ -88,8 +88,8 @@ runRegion(const SavedRegion &R, Machine &M, Session &Watch, bool ChoosesClock,
     if (Result.End != Outcome::Done)
       break;
     if (Memory->takeDigest() != L.Changes)
-      return Bad(L, "it left other memory than when it was saved, expected a "
-                    "program and a simulator that do the same again");
+      return Bad(L, "the replay left different memory contents, expected a "
+                    "deterministic program and the same simulator");
   }
   Print(Times.text());
   return Result;

@@ -142,8 +142,7 @@ Error wrongSizes(std::string_view Option, const std::string &Given) {
 
 Error missingGlobal() {
   return {"",
-          "--global is missing, expected X[,Y[,Z]], how many work-items run "
-          "the kernel",
+          "--global is missing, expected X[,Y[,Z]], the number of work-items",
           ExitCode::Usage};
 }
 
@@ -229,7 +228,7 @@ int exitCode(const RunResult &R) {
 }
 
 /// Whether --check bounds would say more of how \p R ended, a run of \p O: a
-/// kernel went where no memory is.
+/// kernel went unmapped memory.
 bool leftItsBuffers(const RunResult &R, const Options &O) {
   const TrapCause Cause = R.Fault.Cause;
   return R.End == Outcome::Trap && O.Watch.Check.empty() &&
@@ -244,14 +243,15 @@ int reportOutcome(const RunResult &R, const Options &O) {
   while (Report.ends_with('\n'))
     Report.pop_back();
   if (leftItsBuffers(R, O))
-    Report += "\n  --check bounds says which buffer a kernel leaves, and where";
+    Report += "\n  --check bounds reports the buffer and the location of an "
+              "out-of-bounds access";
   if (R.End == Outcome::GuestFailed)
     printDiagnostic(
         Tool, "error", O.Program,
         fmt::format("the program failed with exit code {}{}", R.ExitCode,
                     canPassOn(R.ExitCode)
                         ? ""
-                        : ", for which vorion-sim ends with 1 (see --help)"));
+                        : ", for which vorion-sim exits with 1 (see --help)"));
   else if (R.End != Outcome::Done)
     printDiagnostic(Tool, "error", O.Program,
                     fmt::format("{}: {}", describe(R.End), Report));
@@ -337,8 +337,7 @@ int runSaved(const Options &O, const KernelRequest &Request,
   if (const char *Given = notForRegions(O, Request))
     return reportError(
         Tool,
-        Error{O.Program,
-              fmt::format("a saved region, expected it without {}", Given),
+        Error{O.Program, fmt::format("a saved region, expected no {}", Given),
               ExitCode::Usage});
   const Expected<SavedRegion> Region = parseRegion(File, O.Program);
   if (!Region)
@@ -420,7 +419,7 @@ int run(const Options &O) {
 }
 
 int mainOf(int Argc, char **Argv) {
-  CLI::App App{"Runs a program for the Vorion machine on the ISA simulator.",
+  CLI::App App{"Runs a program of the Vorion machine on the ISA simulator.",
                std::string(Tool)};
   Options O;
   declareOptions(App, O);

@@ -22,7 +22,7 @@ public:
 BitcodeCompiler::BitcodeCompiler() = default;
 BitcodeCompiler::~BitcodeCompiler() {}
 void BitcodeCompiler::add(BitcodeFile & /*File*/) {
-  error("an input is LLVM's bitcode, expected machine code");
+  error("an input is LLVM bitcode, expected machine code");
 }
 std::vector<InputFile *> BitcodeCompiler::compile() { return {}; }
 

@@ -159,14 +159,14 @@ Expected<Success> checkArchive(Bytes File, const std::string &Archive) {
   for (uint64_t At = ArchiveMagic.size(); At < File.size();) {
     const auto Header = slice(File, At, HeaderSize);
     if (!Header)
-      return Error{Archive, "truncated archive, expected whole members"};
+      return Error{Archive, "truncated archive, expected complete members"};
     const char *Text = reinterpret_cast<const char *>(Header->data());
     std::string Name(Text, NameSize);
     const std::string Digits(Text + SizeField, SizeWidth);
     const uint64_t Size = std::strtoull(Digits.c_str(), nullptr, 10);
     const auto Member = slice(File, At + HeaderSize, Size);
     if (!Member)
-      return Error{Archive, "truncated archive, expected whole members"};
+      return Error{Archive, "truncated archive, expected complete members"};
     At += HeaderSize + Size + Size % 2;
     if (Name.starts_with("//")) {
       LongNames = *Member;
@@ -179,7 +179,7 @@ Expected<Success> checkArchive(Bytes File, const std::string &Archive) {
           slice(LongNames, std::strtoull(Name.c_str() + 1, nullptr, 10), 0);
       if (!Long)
         return Error{Archive, "malformed member name, expected an offset into "
-                              "the table of long names"};
+                              "the long-name table"};
       const std::string_view Rest(reinterpret_cast<const char *>(Long->data()),
                                   static_cast<std::size_t>(LongNames.data() +
                                                            LongNames.size() -
@@ -202,19 +202,19 @@ Expected<std::string> link::readArchAttribute(Bytes File,
                                               const std::string &Name) {
   const auto Header = readAt<Elf32_Ehdr>(File, 0);
   if (!Header && fileKindOf(File) == FileKind::Elf)
-    return Error{Name, "truncated header, expected a whole object"};
+    return Error{Name, "truncated header, expected a complete object"};
   if (!Header || std::memcmp(Header->e_ident, ELFMAG, SELFMAG) != 0 ||
       Header->e_ident[EI_CLASS] != ELFCLASS32 ||
       Header->e_ident[EI_DATA] != ELFDATA2LSB || Header->e_machine != EM_RISCV)
-    return otherKind(Name, File,
-                     "an object for RISC-V (32-bit), or an archive of such, "
-                     "compiled by vorion-clang",
-                     "not an ELF file");
+    return otherKind(
+        Name, File,
+        "an object or archive for RISC-V (32-bit), compiled by vorion-clang",
+        "not an ELF file");
   for (unsigned I = 0; I < Header->e_shnum; ++I) {
     const auto Section = readAt<Elf32_Shdr>(
         File, Header->e_shoff + uint64_t{I} * sizeof(Elf32_Shdr));
     if (!Section)
-      return Error{Name, "truncated section table, expected a whole object"};
+      return Error{Name, "truncated section table, expected a complete object"};
     if (Section->sh_type != AttributesSectionType)
       continue;
     const auto Content = slice(File, Section->sh_offset, Section->sh_size);
@@ -232,7 +232,7 @@ Expected<Success> link::checkInput(Bytes File, const std::string &Name) {
   if (startsWith(File, ArchiveMagic))
     return checkArchive(File, Name);
   if (startsWith(File, "!<thin>\n"))
-    return Error{Name, "a thin archive, expected a whole one"};
+    return Error{Name, "a thin archive, expected a regular archive"};
   const auto Arch = readArchAttribute(File, Name);
   if (!Arch)
     return Arch.error();

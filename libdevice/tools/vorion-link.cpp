@@ -143,8 +143,8 @@ Expected<fs::path> deviceFolder() {
 Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
   const pid_t Child = fork();
   if (Child < 0)
-    return Error{"", fmt::format("no process for the link: {}, expected room "
-                                 "for one more",
+    return Error{"", fmt::format("cannot start the linker: {}, expected a host "
+                                 "with room for a process",
                                  std::strerror(errno))};
   if (Child == 0)
     link::runLld(Arguments);
@@ -153,11 +153,11 @@ Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
   }
   // It writes through a map, which a full disk ends by this signal.
   if (WIFSIGNALED(Status) && WTERMSIG(Status) == SIGBUS)
-    return Error{"", "ld.lld-19 could not write its output, expected free "
-                     "space there"};
+    return Error{
+        "", "ld.lld-19 could not write its output, expected free disk space"};
   if (!WIFEXITED(Status) || WEXITSTATUS(Status) != 0)
-    return Error{"", "the link failed, expected ld.lld-19 to accept what its "
-                     "messages above name"};
+    return Error{"", "the link failed, expected no errors of ld.lld-19 (see "
+                     "its messages above)"};
   return Success{};
 }
 
@@ -175,16 +175,15 @@ Expected<Success> addStackNeeds(const std::string &Output) {
   for (const link::StackNeed &Need : *Needs)
     if (Need.Bytes > VX_MAX_STACK_ROOM)
       printDiagnostic(Tool, "warning", Output,
-                      fmt::format("{} needs a stack of {} bytes for each "
-                                  "work-item, expected at most the {} that a "
-                                  "machine can have",
+                      fmt::format("{} needs a stack of {} bytes per work-item, "
+                                  "expected at most {}, the limit of a machine",
                                   Need.Name, Need.Bytes, VX_MAX_STACK_ROOM));
   std::fstream File(Output, std::ios::in | std::ios::out | std::ios::binary);
   File.write(reinterpret_cast<const char *>(Program->data()),
              static_cast<std::streamsize>(Program->size()));
   File.close();
   if (!File)
-    return Error{Output, "cannot be written, expected free space there"};
+    return Error{Output, "cannot be written, expected free disk space"};
   return Success{};
 }
 

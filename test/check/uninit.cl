@@ -2,19 +2,19 @@
 // REQUIRES: vorion-clang, vorion-cl-link, vorion-device, vorion-sim
 // RUN: vorion-clang -g %s -o %t.elf
 // RUN: not vorion-sim %t.elf --kernel half_written --global 32 --local 16 --arg out:128@%t.out --check uninit 2>&1 | FileCheck %s
-// CHECK: vorion-sim: check: uninit: {{.*}}uninit.cl:[[#@LINE+20]] (half_written): store of a value from memory that nothing was written to, at 0x{{[0-9a-f]+}}, {{[0-9]+}} bytes into buffer 'out' (128 bytes at 0x{{[0-9a-f]+}})
+// CHECK: vorion-sim: check: uninit: {{.*}}uninit.cl:[[#@LINE+20]] (half_written): store of a value from uninitialized memory at 0x{{[0-9a-f]+}}, {{[0-9]+}} bytes into buffer 'out' (128 bytes at 0x{{[0-9a-f]+}})
 // CHECK-NEXT: core 0, warp 0, lane 0,
 // CHECK-NOT: uninit:
 
 // A branch on what was never set.
 // RUN: not vorion-sim %t.elf --kernel decide --global 16 --arg buf:64 --check uninit 2>&1 | FileCheck %s --check-prefix=BRANCH
-// BRANCH: vorion-sim: check: uninit: {{.*}}uninit.cl:[[#@LINE+22]] (decide): {{condition|branch on a value}} from memory that nothing was written to (lanes 0xfffe)
+// BRANCH: vorion-sim: check: uninit: {{.*}}uninit.cl:[[#@LINE+22]] (decide): {{condition|branch on a value}} from uninitialized memory (lanes 0xfffe)
 
 // A structure is copied with the bytes between its members, which nobody writes.
 // RUN: vorion-sim %t.elf --kernel copy --global 2 --local 2 --arg out:12@%t.out --arg local:12 --check uninit
 // A member that nobody wrote is one all the same, if it is a word.
 // RUN: not vorion-sim %t.elf --kernel copy_without --global 2 --local 2 --arg out:12@%t.out --arg local:12 --check uninit 2>&1 | FileCheck %s --check-prefix=MEMBER
-// MEMBER: vorion-sim: check: uninit: {{.*}} (copy_without): store of a value from memory that nothing was written to, at 0x{{[0-9a-f]+}}, 4 bytes into buffer 'output'
+// MEMBER: vorion-sim: check: uninit: {{.*}} (copy_without): store of a value from uninitialized memory at 0x{{[0-9a-f]+}}, 4 bytes into buffer 'output'
 
 kernel void half_written(global int *out) {
   local int shared[16];

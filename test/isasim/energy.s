@@ -42,13 +42,13 @@
 # CHECK: power: chip {{.*}} W ({{.*}} to {{.*}}), all {{.*}}, 1.150 V, technology 16nm
 # RUN: vorion-sim %t/p.elf --voltage 0.5 | FileCheck %s --check-prefix=LOW
 # VOLTS: 0.800 V, technology 16nm
-# VOLTS-NEXT: note: at 0.800 V the technology's law allows {{[0-9]+}} MHz, and the clock has 530
-# LOW: note: 0.500 V is below the 0.57 V at which the technology's law begins
+# VOLTS-NEXT: note: at 0.800 V the technology's frequency law allows {{[0-9]+}} MHz, and the clock is 530
+# LOW: note: 0.500 V is below 0.57 V, the lower end of the technology's frequency law
 # NEGATIVE: error: {{.*}}negative.json: key energies.instruction fetched.pj is -4.8, expected a number from 0 to
 # MISSING: error: {{.*}}missing.json: key energies.tile command is missing
 # UNKNOWN: error: {{.*}}unknown.json: key areas.gate is missing
-# FAST: error: a clock of 2000 MHz is beyond technology 16nm, whose law ends at 530 MHz, expected --voltage with it
-# DRAM: error: technology 16nm has no currents of the machine's DRAM, 'hbm2e', expected a --technology that has
+# FAST: error: a clock of 2000 MHz exceeds the frequency law of technology 16nm, which ends at 530 MHz, expected --voltage
+# DRAM: error: technology 16nm has no currents for the machine's DRAM, 'hbm2e', expected a --technology with them
   .globl _start
 _start:
   li a1, 100

@@ -25,11 +25,11 @@
 # The system has no such codes: 256 would be 0.
 # REDEFINE: %{code} = 256
 # RUN: %{run} | FileCheck %s --check-prefix=TAKEN -DCODE=256
-# TAKEN: the program failed with exit code [[CODE]], for which vorion-sim ends with 1 (see --help)
+# TAKEN: the program failed with exit code [[CODE]], for which vorion-sim exits with 1 (see --help)
 # TAKEN-NEXT: ended with 1{{$}}
 # RUN: vorion-sim --help | FileCheck %s --check-prefix=HELP
 # HELP: exit codes: 0 ok, 1 guest failed,
-# HELP: a program that exits with N above 0 ends this with N, too, or with 1 if N is in the
+# HELP: a nonzero exit code of the program is passed on, or replaced by 1 if it is in this
 # HELP-NEXT: list or above 255
   .globl _start
 _start:

@@ -24,18 +24,18 @@
 # RUN: not vorion-sim %t.elf --global 100 --arg i32:1 --arg out:400@%t.o --arg i32:1 --arg local:4 2>&1 | FileCheck %s --check-prefix=KIND
 # KIND: argument 0 of 'scale' (a) is 'i32:1', expected a buffer
 # RUN: not vorion-sim %t.elf --global 100 --arg buf:400 --arg out:400@%t.o --arg i32:1 --arg local:99999 2>&1 | FileCheck %s --check-prefix=LOCAL
-# LOCAL: needs more than the 32768 bytes of local memory
+# LOCAL: needs more than 32768 bytes of local memory
 # RUN: sh -c 'vorion-sim %t.elf --global 100 --arg buf:4000000000 --arg out:400@%t.o --arg i32:1 --arg local:9 2> %t.err; echo "exit $?" >> %t.err'
 # RUN: FileCheck %s --check-prefix=FULL < %t.err
-# FULL: buffer 'a': 4000000000 bytes, but no free part of the 4269670400 bytes of global memory is as large
+# FULL: buffer 'a': 4000000000 bytes, more than the largest free block of the 4269670400 bytes of global memory
 # FULL-NEXT: exit 5
 # RUN: not vorion-sim %t.elf --global 100 --arg buf@%t.none --arg out:400@%t.o --arg i32:1 --arg local:9 2>&1 | FileCheck %s --check-prefix=NOFILE
 # NOFILE: {{.*}}.none: cannot open: No such file or directory
 # RUN: not vorion-sim %t.elf --arg i32:1 2>&1 | FileCheck %s --check-prefix=GLOBAL
-# GLOBAL: vorion-sim: error: --global is missing, expected X[,Y[,Z]], how many work-items run the kernel
+# GLOBAL: vorion-sim: error: --global is missing, expected X[,Y[,Z]], the number of work-items
 # RUN: sh -c 'vorion-sim %t.elf 2> %t.err; echo "exit $?" >> %t.err'
 # RUN: FileCheck %s --check-prefix=ALONE < %t.err
-# ALONE: vorion-sim: error: --global is missing, expected X[,Y[,Z]], how many work-items run the kernel
+# ALONE: vorion-sim: error: --global is missing, expected X[,Y[,Z]], the number of work-items
 # ALONE-NEXT: exit 2
 
 # A kernel for warps of 8 lanes runs on such a machine and on no other.

@@ -10,10 +10,10 @@
 # RUN: %python -c 'import json,sys; t = json.load(open(sys.argv[1]))["runs"][0]["time"]; assert t["cycles"] == 1049, t["cycles"]; assert t["clock_mhz"] == 100' %t.json
 # RUN: vorion-sim %t.elf --time --set timing.l2.ways=4 | FileCheck %s --check-prefix=CHANGED
 # RUN: vorion-sim %t.elf --time --set lanes=32,l2.ways=8,l2.kib=512 2>&1 | FileCheck %s --check-prefix=IDLE --implicit-check-not=note:
-# IDLE: vorion-sim: note: timing.raster.lanes=32 changes no cycle of renders: timing.raster.banks is 16{{$}}
-# IDLE: vorion-sim: note: timing.l2.ways=8 changes nothing: the machine has it already{{$}}
+# IDLE: vorion-sim: note: timing.raster.lanes=32 has no effect on cycles of renders: timing.raster.banks is 16{{$}}
+# IDLE: vorion-sim: note: timing.l2.ways=8 has no effect: it is the machine's value{{$}}
 # RUN: vorion-sim %t.elf --set l2.kib=512 2>&1 | FileCheck %s --check-prefix=OFF
-# OFF: vorion-sim: note: timing.l2.kib=512 changes no cycle: timing.enabled is 0{{$}}
+# OFF: vorion-sim: note: timing.l2.kib=512 has no effect on cycles: timing.enabled is 0{{$}}
 # RUN: not vorion-sim %t.elf --time --clock 0 2>&1 | FileCheck %s --check-prefix=WRONG
 # CHECK: cycles 1049 (0.010 ms at 100 MHz, clock version {{[0-9]+}})
 # CHECK-NEXT: machine prototype-on-chip{{$}}

@@ -32,7 +32,7 @@
 # SYNC: sync 1
 # SYNC-NEXT: sync 0.0 0x{{[0-9a-f]+}} at an atomic
 # RUN: not vorion-sim %t.elf --trace insn,what 2>&1 | FileCheck %s --check-prefix=WHAT
-# WHAT: vorion-sim: error: trace category 'what', expected all or some of insn,mem,simt,sync,raster,trap, with :FILE behind
+# WHAT: vorion-sim: error: trace category 'what', expected all or some of insn,mem,simt,sync,raster,trap, followed by :FILE
 # RUN: not vorion-sim %t.elf --trace insn:/none/x 2>&1 | FileCheck %s --check-prefix=FILE
 # FILE: vorion-sim: error: /none/x: cannot write: No such file or directory, expected a folder that can be written
   .globl _start

@@ -5,7 +5,7 @@
 # RUN: FileCheck %s < %t.err
 # CHECK: vorion-sim: error: {{.*}}.elf: trap: core 2, warp 0, lane 1: divergent branch
 # CHECK-NEXT: pc 0x{{[0-9a-f]+}} <culprit+0x4>: beq t0, zero, 0x{{[0-9a-f]+}}
-# CHECK-NEXT: all active lanes must go the same way at a branch without split
+# CHECK-NEXT: a branch without vx_split must be uniform across active lanes
 # CHECK-NEXT: active lanes 0xffff
 # CHECK-NEXT: exit 4
   .globl _start

@@ -9,7 +9,7 @@
 # CHECK: exit 5
 # RUN: sh -c 'vorion-sim %t.elf --max-instructions 1000 2> %t.err; echo "exit $?" >> %t.err'
 # RUN: FileCheck %s --check-prefix=COUNT < %t.err
-# COUNT: limit reached: {{[0-9]+}} instructions, as many as may run
+# COUNT: limit reached: {{[0-9]+}} instructions, the maximum
 # COUNT: exit 5
 # RUN: not vorion-sim %t.elf --watchdog soon 2>&1 | FileCheck %s --check-prefix=BAD
 # BAD: vorion-sim: error: watchdog of 'soon', expected seconds above 0

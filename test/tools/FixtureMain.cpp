@@ -89,16 +89,19 @@ Expected<Success> run(const std::string &Input, const std::string &Folder) {
 } // namespace vorion::test
 
 int main(int Count, char **Values) {
-  CLI::App App("Turns a fixture into a scene (scene.ply), a view "
-               "(cameras.json, named view), its options (options.json), the "
-               "result to expect (expected.npz) and the reference's with "
-               "masks of doubtful pixels (reference.npz); and the loss "
-               "without doubtful pixels (upstream.npz) with its gradients "
-               "(gradients.npz).",
+  CLI::App App("Converts a fixture to a scene (scene.ply), a view named view "
+               "(cameras.json), its options (options.json), the expected "
+               "result (expected.npz), the reference renderer's result with "
+               "masks of doubtful pixels (reference.npz), the gradients of a "
+               "loss that excludes doubtful pixels (upstream.npz), and the "
+               "expected gradients of the scene (gradients.npz).",
                "splat-fixture");
   std::string Input, Folder;
-  App.add_option("fixture", Input, "Inputs and results (.npz)")->required();
-  App.add_option("-o,--output", Folder, "Folder, made if need be")->required();
+  App.add_option("fixture", Input, "Fixture with inputs and results (.npz)")
+      ->required();
+  App.add_option("-o,--output", Folder,
+                 "Output folder, created if it does not exist")
+      ->required();
   return vorion::test::runTool(
       App, Count, Values, [&] { return vorion::test::run(Input, Folder); });
 }

@@ -67,17 +67,18 @@ Expected<Success> run(const Arguments &A) {
 
 int main(int Count, char **Values) {
   using namespace vorion::test;
-  CLI::App App("Compares gradients with those that splat-fixture expects, by "
-               "their relative difference in the L2 norm.",
+  CLI::App App("Compares gradients with those of splat-fixture by the relative "
+               "difference in the L2 norm.",
                "splat-check-gradients");
   Arguments A;
-  App.add_option("expected", A.Expected, "gradients.npz of splat-fixture")
+  App.add_option("expected", A.Expected,
+                 "Expected gradients: gradients.npz of splat-fixture")
       ->required();
   App.add_option("actual", A.Actual, "Result of splat gradients")->required();
   App.add_option("--max", A.Most,
-                 "Largest error; twice that of the fixture's own fp32 result "
-                 "where that is more")
+                 "Error bound, raised to twice the error of the fixture's own "
+                 "fp32 result where that is larger")
       ->capture_default_str();
-  App.add_option("--json", A.Json, "The table, for programs");
+  App.add_option("--json", A.Json, "Write the table as JSON");
   return runTool(App, Count, Values, [&A] { return run(A); });
 }

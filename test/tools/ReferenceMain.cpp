@@ -112,7 +112,7 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
 Expected<Success> run(Arguments &A) {
   for (const std::string *File : {&A.Output, &A.Pairs})
     if (!File->empty() && !File->ends_with(".npz"))
-      return Error{*File, "unknown kind of file, expected .npz",
+      return Error{*File, "unknown file extension, expected .npz",
                    ExitCode::Usage};
   if (A.AlongRays && (A.Precision != "f64" || A.Support != "exact" ||
                       A.Projection != "jacobian" || A.Order == "ray"))
@@ -145,7 +145,7 @@ Expected<Success> run(Arguments &A) {
 
 int main(int Count, char **Values) {
   using namespace vorion::test;
-  CLI::App App("Renders one view of a scene with the reference.",
+  CLI::App App("Renders one view of a scene with the reference renderer.",
                "splat-reference");
   Arguments A;
   App.add_option("scene", A.Scene, "Scene of any format that splat reads")
@@ -157,27 +157,28 @@ int main(int Count, char **Values) {
                  "Picture, alpha and masks of doubtful pixels (.npz)");
   App.add_option("--pairs", A.Pairs,
                  "Sorted tile, depth_bits and index arrays (.npz)");
-  App.add_option("--json", A.Json, "Counts, and what made them");
-  App.add_option("--projection", A.Projection, "As splat render has it")
+  App.add_option("--json", A.Json,
+                 "Write counts and the options that they depend on");
+  App.add_option("--projection", A.Projection, "Projection, as in splat render")
       ->check(CLI::IsMember({"jacobian", "unscented"}))
       ->capture_default_str();
   App.add_option("--point-spread", A.Options.PointSpread,
-                 "With --projection unscented: how far from the mean a point "
-                 "may be seen, in focal lengths and in the picture's longer "
-                 "side, whichever is less")
+                 "With --projection unscented: largest distance of a sigma "
+                 "point from the mean on the picture, in units of the smaller "
+                 "of focal length and the picture's longer side")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
   App.add_option("--order", A.Order,
-                 "By which depths a pixel blends, with f64; pose: with "
-                 "--along-rays, by those of the camera's pose, as footprints "
-                 "do behind a rolling shutter")
+                 "Depths that define a pixel's blend order, with f64; pose: "
+                 "with --along-rays, depths at the camera's pose, as for "
+                 "footprints under a rolling shutter")
       ->check(CLI::IsMember({"depth", "ray", "pose"}))
       ->capture_default_str();
   App.add_flag("--along-rays", A.AlongRays,
-               "With f64: a pixel sees of each Gaussian the largest density "
-               "on its ray, from where the camera is when it exposes the "
-               "pixel, in place of a footprint");
-  App.add_option("--near", A.Options.Near, "Least depth, 0 for the rules' own")
+               "With f64: evaluate each Gaussian at its maximum density along "
+               "the pixel's ray, from the camera's position at the pixel's "
+               "exposure, in place of a projected footprint");
+  App.add_option("--near", A.Options.Near, "Near plane (0: that of the rules)")
       ->capture_default_str();
   App.add_option("--rules", A.Rules, "Convention to follow")
       ->check(CLI::IsMember({"inria", "gsplat"}))
@@ -185,7 +186,7 @@ int main(int Count, char **Values) {
   App.add_option("--support", A.Support, "Pixels that a Gaussian may reach")
       ->check(CLI::IsMember({"exact", "box3", "square3", "official16"}))
       ->capture_default_str();
-  App.add_option("--precision", A.Precision, "Of all arithmetic")
+  App.add_option("--precision", A.Precision, "Precision of all arithmetic")
       ->check(CLI::IsMember({"f64", "f32"}))
       ->capture_default_str();
   App.add_flag_callback(
@@ -194,10 +195,11 @@ int main(int Count, char **Values) {
       "says)");
   App.add_flag_callback(
       "--no-antialiased", [&A] { A.Read.Drawn.Antialiased = false; },
-      "Do not, whatever the file says");
-  App.add_option("--dilation", A.Read.Drawn.Dilation,
-                 "Added to both variances on the picture, px^2 (default: as "
-                 "the scene's file says, or 0.3)")
+      "Do not compensate, whatever the file says");
+  App.add_option(
+         "--dilation", A.Read.Drawn.Dilation,
+         "Variance added to both axes of the 2D covariance, px^2 (default: as "
+         "the scene's file says, or 0.3)")
       ->check(CLI::NonNegativeNumber);
   App.add_flag("--drop-nonfinite", A.Read.DropNonFinite,
                "Leave out Gaussians with a NaN or an infinity");
@@ -205,14 +207,14 @@ int main(int Count, char **Values) {
       ->delimiter(',')
       ->expected(3);
   App.add_option("--cutoff", A.Options.Cutoff,
-                 "Transmittance at which a pixel is full")
+                 "Transmittance at which a pixel is saturated")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  App.add_option("--tile", A.Options.TileSize, "Side of a tile, pixels")
+  App.add_option("--tile", A.Options.TileSize, "Tile size in pixels")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   App.add_option("--threads", A.Options.Threads,
-                 "Host threads, 0 for all; changes no result")
+                 "Host threads (0: all); results do not depend on it")
       ->check(CLI::Range(0U, 1024U))
       ->capture_default_str();
   return runTool(App, Count, Values, [&A] { return run(A); });

@@ -19,9 +19,8 @@ Device::Device(const std::string &Source) {
     Platforms[0].getDevices(CL_DEVICE_TYPE_ALL, &Devices);
   } catch (const cl::Error &E) {
     // A platform of Vorion has said why, as of a wrong VORION_SET.
-    throw cl::Error(E.err(),
-                    "no OpenCL device, expected one that a platform opens (it "
-                    "may say above why not, or see splat doctor)");
+    throw cl::Error(E.err(), "no OpenCL device, expected one that a platform "
+                             "opens (see the messages above, or splat doctor)");
   }
   Chosen = Devices[0];
   Context = cl::Context(Chosen);
@@ -57,7 +56,7 @@ int run(const char *Name, const char *Source,
     Device D(Source);
     const bool Agree = Body(D);
     std::printf("%s on %s: %s", Name, D.name().c_str(),
-                Agree ? "agrees with the host" : "WRONG");
+                Agree ? "matches the host" : "WRONG");
     if (D.warpInstructions())
       std::printf(", %llu warp instructions, %.1f lanes each",
                   static_cast<unsigned long long>(D.warpInstructions()),

@@ -146,10 +146,9 @@ Expected<Json> gradientErrors(const GradientFiles &Files,
     const auto Ours = Got->find(fmt::format("f32_g_{}", Name));
     if (Right == Want->end() || Ours == Got->end() ||
         Right->second.elements() != Ours->second.elements())
-      return Error{File,
-                   fmt::format("gradients of {} are not those of {}, expected "
-                               "the same scene",
-                               Name, Files.Gradients)};
+      return Error{File, fmt::format("gradients of {} and {} differ in shape, "
+                                     "expected gradients of the same scene",
+                                     Name, Files.Gradients)};
     const auto Least = Want->find(fmt::format("least_norm_{}", Name));
     const double Floor =
         Least == Want->end() ? 0 : Least->second.toDoubles().front();
@@ -158,8 +157,7 @@ Expected<Json> gradientErrors(const GradientFiles &Files,
     if (!std::isfinite(Error))
       return vorion::Error{
           File,
-          fmt::format("gradients of {} are not all numbers, expected finite "
-                      "ones",
+          fmt::format("gradients of {} are not finite, expected finite values",
                       Name)};
     Errors[Name] = Error;
     Largest = std::max(Largest, Error);

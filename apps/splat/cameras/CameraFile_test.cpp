@@ -85,7 +85,7 @@ TEST(CameraFile, WhatHasNoCamerasIsRefused) {
     EXPECT_NE(Read.error().What.find(Message), std::string::npos)
         << Read.error().What;
   };
-  Expect(F.path(""), "no capture");
+  Expect(F.path(""), "not a capture");
   Expect(F.path("none.json"), "cannot open");
   F.write("a.json", "{\"views\": []}");
   Expect(F.path("a.json"), "no cameras, expected");

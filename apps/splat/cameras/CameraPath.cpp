@@ -105,9 +105,11 @@ Expected<std::vector<Camera>> parseCameraPath(const std::string &Where,
   const auto Width = sideAt(Document, "render_width"),
              Height = sideAt(Document, "render_height");
   if (!Width || !Height)
-    return Error{Where, fmt::format("key render_{} is missing or wrong, "
-                                    "expected 1 to {} pixels",
-                                    Width ? "height" : "width", MaxImageSize)};
+    return Error{
+        Where,
+        fmt::format(
+            "key render_{} is missing or invalid, expected 1 to {} pixels",
+            Width ? "height" : "width", MaxImageSize)};
   const auto Model = modelOf(Where, Document);
   if (!Model)
     return Model.error();
@@ -131,19 +133,20 @@ Expected<std::vector<Camera>> parseCameraPath(const std::string &Where,
       return Fail(fmt::format("key {} is missing, expected 16 numbers", Key));
     const auto M = matrixOf(One[Key]);
     if (!M)
-      return Fail(fmt::format("key {} is wrong, expected 16 numbers", Key));
+      return Fail(fmt::format("key {} is invalid, expected 16 numbers", Key));
     const auto Fov = One.contains("fov") ? numberAt(One, "fov")
                                          : numberAt(Document, "default_fov");
     // The sphere has none.
     if (!IsSphere && (!Fov || !(*Fov > 0.001 && *Fov < 179.9)))
-      return Fail("key fov is missing or wrong, expected degrees between 0 and "
-                  "180");
+      return Fail(
+          "key fov is missing or invalid, expected degrees between 0 and "
+          "180");
     Camera C = posed(*M, *Model, *Width, *Height,
                      IsSphere ? 0 : focalOf(*Height, *Fov));
     C.Id = static_cast<int>(Cameras.size());
     C.Name = Name;
     if (!isRotation(C.Rotation))
-      return Fail(fmt::format("key {} is wrong, expected a rotation and a "
+      return Fail(fmt::format("key {} is invalid, expected a rotation and a "
                               "translation",
                               Key));
     Cameras.push_back(std::move(C));

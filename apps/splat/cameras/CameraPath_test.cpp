@@ -112,7 +112,7 @@ TEST(CameraPath, EachKindOfDamageHasItsMessage) {
        "no camera in camera_path"},
       {[](Json &J) { J["camera_path"][1] = 3; }, "camera 00001: key camera_to"},
       {[](Json &J) { J["camera_path"][0]["camera_to_world"][3] = "x"; },
-       "camera 00000: key camera_to_world is wrong, expected 16 numbers"},
+       "camera 00000: key camera_to_world is invalid, expected 16 numbers"},
       {[](Json &J) { J["camera_path"][0]["camera_to_world"][0] = 2; },
        "expected a rotation"},
       {[](Json &J) { J["camera_path"][0]["fov"] = 180; }, "key fov"},

@@ -38,8 +38,9 @@ std::string ordinal(unsigned N) {
 void holdOut(Capture &C, unsigned Every) {
   for (std::size_t I = 0; I < C.Views.size(); ++I)
     C.Views[I].HeldOut = Every != 0 && I % Every == 0;
-  C.HeldOutBy = Every == 0 ? "none, as asked"
-                           : fmt::format("every {} by name", ordinal(Every));
+  C.HeldOutBy = Every == 0
+                    ? "none, by option"
+                    : fmt::format("every {} in order of names", ordinal(Every));
 }
 
 /// What the options ask of masks.
@@ -87,9 +88,9 @@ Expected<Success> checkOnce(const std::string &Path,
   for (const CaptureView &V : Views)
     if (!Pictures.insert(fs::path(V.Picture).lexically_normal().string())
              .second)
-      return Error{Path, fmt::format("picture {} is there twice, expected it "
-                                     "once",
-                                     printable(V.Pose.Name))};
+      return Error{Path,
+                   fmt::format("duplicate picture {}, expected unique names",
+                               printable(V.Pose.Name))};
   return Success{};
 }
 
@@ -102,7 +103,7 @@ Expected<Success> checkPicture(const CaptureView &V) {
     return Size.error();
   if (Size->Width != V.Pose.Width || Size->Height != V.Pose.Height)
     return Error{V.Picture,
-                 fmt::format("{}x{} pixels, expected {}x{} as its camera says",
+                 fmt::format("{}x{} pixels, expected {}x{} as in its camera",
                              Size->Width, Size->Height, V.Pose.Width,
                              V.Pose.Height)};
   return Success{};
@@ -181,10 +182,10 @@ static Error noCapture(const std::string &Path) {
   std::error_code Ignored;
   if (!fileExists(Path))
     return {Path,
-            fmt::format("no capture: no such folder, expected {}", Wanted)};
+            fmt::format("no such folder, expected a capture: {}", Wanted)};
   if (fs::is_directory(Path, Ignored))
-    return {Path, fmt::format("no capture, expected {}", Wanted)};
-  return otherKindAt(Path, Wanted, "no capture: not a folder");
+    return {Path, fmt::format("not a capture, expected {}", Wanted)};
+  return otherKindAt(Path, Wanted, "not a folder, expected a capture");
 }
 
 Expected<CaptureCameras> readCaptureCameras(const std::string &Path,

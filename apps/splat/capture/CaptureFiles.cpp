@@ -49,9 +49,11 @@ fs::path pictureOf(const fs::path &Folder, const std::string &Name) {
 
 Error isOutside(const std::string &File, const std::string &Name,
                 std::string_view Remedy) {
-  return {File, fmt::format("names the file `{}`, expected one inside the "
-                            "folder, or {}",
-                            printable(Name), Remedy)};
+  return {
+      File,
+      fmt::format(
+          "refers to the file `{}`, expected a file inside the folder, or {}",
+          printable(Name), Remedy)};
 }
 
 Expected<Success> checkInside(const std::string &File, const std::string &Name,
@@ -77,18 +79,17 @@ Expected<Success> checkPinhole(const std::string &File, std::string_view Kind,
     return Success{};
   if (V.Optics.Model->CoversSphere)
     return Error{
-        File, fmt::format("{} {} has the camera model {}, of "
-                          "which there is no pinhole's picture, expected "
-                          "photographs of perspective or fisheye cameras, "
-                          "or --distorted",
+        File, fmt::format("{} {} has the camera model {}, which cannot be "
+                          "undistorted to a pinhole, expected photographs of "
+                          "perspective or fisheye cameras, or --distorted",
                           Kind, printable(V.Pose.Name), V.Optics.Model->Name)};
   if (V.Optics.Shutter)
-    return Error{File,
-                 fmt::format("{} {} has a rolling shutter, of which there "
-                             "is no pinhole's picture, expected photographs of "
-                             "one moment each (without the key rolling_shutter "
-                             "the first pose counts), or --distorted",
-                             Kind, printable(V.Pose.Name))};
+    return Error{
+        File,
+        fmt::format("{} {} has a rolling shutter, which cannot be undistorted "
+                    "to a pinhole, expected a global shutter (without the key "
+                    "rolling_shutter the first pose is used), or --distorted",
+                    Kind, printable(V.Pose.Name))};
   return Success{};
 }
 
@@ -102,8 +103,8 @@ Expected<Success> addCamera(const std::string &File, CaptureView V, LensOf Of,
           return std::abs(K) <= MostLensCoefficient;
         }))
       return Error{File,
-                   fmt::format("view {} has a lens with coefficients "
-                               "beyond {:g}, expected smaller ones",
+                   fmt::format("view {} has lens coefficients above {:g}, "
+                               "expected smaller coefficients",
                                printable(V.Pose.Name), MostLensCoefficient)};
   }
   To.Cameras.push_back(std::move(V.Pose));

@@ -61,7 +61,7 @@ Expected<Success> leaveOutSome(std::vector<View> &Views, Capture &C) {
   const std::string First = Views.front().Picture;
   leaveOutMissing(Views, C);
   if (Views.empty())
-    return Error{First, "no such picture, nor any other of the capture's, "
+    return Error{First, "no such picture, nor any other of the capture, "
                         "expected photographs there"};
   return Success{};
 }

@@ -190,7 +190,7 @@ TEST(Capture, MasksAreFoundByNameOrByPath) {
   const CaptureFolder F(Transforms);
   const auto C = readCapture(F.path(), Files);
   ASSERT_FALSE(C);
-  EXPECT_NE(C.error().What.find("expected one inside the folder"),
+  EXPECT_NE(C.error().What.find("expected a file inside the folder"),
             std::string::npos);
 }
 
@@ -199,7 +199,7 @@ TEST_P(Captures, PicturesAreLookedAt) {
   const struct {
     const char *Content, *Message;
   } Cases[] = {{"text", "a text, expected a picture as PNG, JPEG or WebP"},
-               {"small", "3x2 pixels, expected 8x6 as its camera says"}};
+               {"small", "3x2 pixels, expected 8x6 as in its camera"}};
   for (const auto &[Content, Message] : Cases) {
     Folder Files = folderOf(GetParam(), sampleCapture());
     auto Picture = std::ranges::find_if(
@@ -255,10 +255,10 @@ TEST(Capture, PlacesWithoutOneAreRefused) {
   EXPECT_FALSE(isCapture(F.path()));
   const auto C = readCapture(F.path());
   ASSERT_FALSE(C);
-  EXPECT_NE(C.error().What.find("no capture"), std::string::npos);
+  EXPECT_NE(C.error().What.find("not a capture"), std::string::npos);
   const auto None = readCapture(F.path("nowhere"));
   ASSERT_FALSE(None);
-  EXPECT_NE(None.error().What.find("no capture"), std::string::npos);
+  EXPECT_NE(None.error().What.find("expected a capture"), std::string::npos);
 }
 
 TEST(Capture, NamesOccurOnce) {
@@ -267,7 +267,7 @@ TEST(Capture, NamesOccurOnce) {
   const CaptureFolder F(colmapTextOf(S));
   const auto C = readCapture(F.path());
   ASSERT_FALSE(C);
-  EXPECT_NE(C.error().What.find("a4.png is there twice"), std::string::npos);
+  EXPECT_NE(C.error().What.find("duplicate picture"), std::string::npos);
 }
 
 // One picture as so many views would be that often in memory.
@@ -279,7 +279,7 @@ TEST(Capture, APictureOccursOnceUnderAnyName) {
     const CaptureFolder F(Files);
     const auto C = readCapture(F.path());
     ASSERT_FALSE(C) << Other;
-    EXPECT_NE(C.error().What.find("is there twice"), std::string::npos)
+    EXPECT_NE(C.error().What.find("duplicate picture"), std::string::npos)
         << C.error().What;
   }
 }
@@ -291,7 +291,7 @@ TEST(Capture, PathsStayInTheFolderUnlessAllowed) {
     ASSERT_FALSE(C);
     EXPECT_EQ(C.error().Code, ExitCode::InputFile);
     EXPECT_TRUE(C.error().Where.ends_with(File)) << C.error().Where;
-    EXPECT_NE(C.error().What.find("expected one inside the folder, or "
+    EXPECT_NE(C.error().What.find("expected a file inside the folder, or "
                                   "--allow-outside"),
               std::string::npos)
         << C.error().What;
@@ -357,7 +357,7 @@ TEST(Capture, TestPicturesMayBeMissingInPart) {
     const auto C = readCapture(F.path());
     ASSERT_TRUE(C) << C.error().What;
     EXPECT_EQ(C->Views.size(), 8U);
-    EXPECT_EQ(C->HeldOutBy, "every 8th by name");
+    EXPECT_EQ(C->HeldOutBy, "every 8th in order of names");
     EXPECT_EQ(C->heldOut(), 1U);
   }
   for (int N = 0; N != 8; ++N)
@@ -376,7 +376,7 @@ TEST(Capture, TheCallerMayChooseWhatIsHeldOut) {
   const auto C = readCapture(F.path(), Options);
   ASSERT_TRUE(C) << C.error().What;
   EXPECT_EQ(C->heldOut(), 4U); // of 10, whatever its test set is
-  EXPECT_EQ(C->HeldOutBy, "every 3rd by name");
+  EXPECT_EQ(C->HeldOutBy, "every 3rd in order of names");
   Options.HoldOut = 0;
   EXPECT_EQ(readCapture(F.path(), Options)->heldOut(), 0U);
   Options.HoldOut = 1;

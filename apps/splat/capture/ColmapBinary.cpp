@@ -54,16 +54,18 @@ public:
                                uint64_t Count) const {
     if (!Short)
       return std::nullopt;
-    return Error{Where, fmt::format("the file ends within {} {}, expected {} "
-                                    "of them",
-                                    Kind, Index, Count)};
+    return Error{
+        Where,
+        fmt::format("truncated: the file ends in {} {}, expected {} of them",
+                    Kind, Index, Count)};
   }
   std::optional<Error> leftOver() const {
     if (Rest.empty())
       return std::nullopt;
-    return Error{Where, fmt::format("{} after the last record, expected the "
-                                    "file's end",
-                                    counted(Rest.size(), "byte"))};
+    return Error{
+        Where,
+        fmt::format("{} after the last record, expected the end of the file",
+                    counted(Rest.size(), "byte"))};
   }
 
 private:
@@ -135,7 +137,7 @@ Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files) {
         if (Known == Models.end())
           return Error{Files.Cameras.Where,
                        fmt::format("camera {} has model number {}, expected "
-                                   "that of one of {}",
+                                   "the number of one of {}",
                                    Id, Model, knownColmapModels())};
         if (auto Bad =
                 errorOf(Builder.checkModel(Files.Cameras.Where, Id, *Known)))

@@ -82,7 +82,7 @@ static Expected<Success> seeThrough(const ColmapCameraModel &Kind,
   C.Cx = Parameters[Focals];
   C.Cy = Parameters[Focals + 1];
   if (!allFinite(Parameters) || !(C.Fx > 0) || !(C.Fy > 0))
-    return Error{"", "parameters that are no camera, expected a positive focal "
+    return Error{"", "invalid parameters, expected a positive focal "
                      "length and a finite principal point"};
   CameraModel Optics{Kind.Lens};
   std::ranges::copy(Parameters.subspan(Focals + 2), Optics.K.begin());
@@ -109,9 +109,8 @@ Expected<Success> ColmapBuilder::addCamera(const std::string &Where, int64_t Id,
   if (auto Seen = seeThrough(Kind, Parameters, Taken); !Seen)
     return Error{Where, fmt::format("camera {} has {}", Id, Seen.error().What)};
   if (!Cameras.emplace(Id, Taken).second)
-    return Error{Where, fmt::format("camera {} is there twice, expected it "
-                                    "once",
-                                    Id)};
+    return Error{Where,
+                 fmt::format("duplicate camera {}, expected unique ids", Id)};
   return Success{};
 }
 
@@ -128,9 +127,8 @@ Expected<Success> ColmapBuilder::addImage(const std::string &Where,
       std::sqrt(Q[0] * Q[0] + Q[1] * Q[1] + Q[2] * Q[2] + Q[3] * Q[3]);
   // Files of few decimals pass; what is no quaternion at all does not.
   if (!(std::abs(Norm - 1) < 1e-2) || !allFinite(I.Translation))
-    return Error{Where, fmt::format("image {} has an unreadable pose, expected "
-                                    "a unit quaternion and a finite "
-                                    "translation",
+    return Error{Where, fmt::format("image {} has an invalid pose, expected a "
+                                    "unit quaternion and a finite translation",
                                     Shown)};
   const double W = Q[0] / Norm, X = Q[1] / Norm, Y = Q[2] / Norm,
                Z = Q[3] / Norm;
@@ -158,7 +156,7 @@ Expected<Success> ColmapBuilder::addPoint(const std::string &Where,
   for (const double V : Position) {
     const auto Rounded = static_cast<float>(V);
     if (!std::isfinite(Rounded))
-      return Error{Where, fmt::format("point {} holds a NaN or an infinity, "
+      return Error{Where, fmt::format("point {} has a NaN or an infinity, "
                                       "expected finite coordinates",
                                       P.size())};
     P.Positions.push_back(Rounded);
@@ -179,7 +177,7 @@ Expected<ColmapModel> ColmapBuilder::finish(const ColmapFiles &Files) {
     return Error{Files.Images.Where, "no image, expected at least one"};
   if (!Files.PosesOnly && Model.Points.size() == 0)
     return Error{Files.Points.Where,
-                 "no points, expected those that training starts from"};
+                 "no points, expected the initial points of training"};
   return std::move(Model);
 }
 

@@ -87,9 +87,7 @@ private:
 };
 
 Error badLine(const LineReader &R, std::string_view Wanted) {
-  return Error{R.where(), fmt::format("a line that is not as it should be, "
-                                      "expected {}",
-                                      Wanted)};
+  return Error{R.where(), fmt::format("malformed line, expected {}", Wanted)};
 }
 
 Expected<Success> readCameraLines(const ColmapFile &F, ColmapBuilder &B) {
@@ -136,8 +134,8 @@ Expected<Success> checkSights(LineReader &R) {
     W.number<int64_t>(); // -1: of no point
   }
   return W.good() ? Expected<Success>(Success{})
-                  : badLine(R, "X Y POINT3D_ID for each place where the image "
-                               "above sees a point, or an empty line");
+                  : badLine(R, "X Y POINT3D_ID for each point observed by the "
+                               "image above, or an empty line");
 }
 
 Expected<Success> readImageLines(const ColmapFile &F, ColmapBuilder &B) {

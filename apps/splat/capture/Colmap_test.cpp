@@ -94,7 +94,7 @@ TEST_P(Colmap, CountsOfNothingAreRefused) {
   ASSERT_FALSE(NoPoints);
   EXPECT_EQ(NoPoints.error().Where, "points");
   EXPECT_EQ(NoPoints.error().What,
-            "no points, expected those that training starts from");
+            "no points, expected the initial points of training");
   S = sampleCapture(0);
   const auto NoImage = parsed(partsOf(S, GetParam()), GetParam());
   ASSERT_FALSE(NoImage);
@@ -109,7 +109,7 @@ TEST_P(Colmap, UnreadablePosesAreRefused) {
     S.Views[2].Translation[1] = T;
     const auto M = parsed(partsOf(S, GetParam()), GetParam());
     ASSERT_FALSE(M);
-    EXPECT_NE(M.error().What.find("image a2.png has an unreadable pose"),
+    EXPECT_NE(M.error().What.find("image a2.png has an invalid pose"),
               std::string::npos)
         << M.error().What;
   }
@@ -120,7 +120,7 @@ TEST_P(Colmap, PointsAreFinite) {
   S.Points[3].Position[1] = 1e300; // no float
   const auto M = parsed(partsOf(S, GetParam()), GetParam());
   ASSERT_FALSE(M);
-  EXPECT_NE(M.error().What.find("point 3 holds"), std::string::npos);
+  EXPECT_NE(M.error().What.find("point 3 has"), std::string::npos);
 }
 
 /// Whatever is cut off or overwritten, there is a model or one line.
@@ -304,30 +304,31 @@ TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
   const struct {
     std::function<void(Parts &)> Change;
     const char *Message;
-  } Cases[] = {{[](Parts &P) { patch<int32_t>(P.Cameras, 12, 7); },
-                "cameras: camera 7 has the model FOV, expected one of "
-                "SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL"},
-               {[](Parts &P) { patch<int32_t>(P.Cameras, 12, 99); },
-                "cameras: camera 7 has model number 99"},
-               {[](Parts &P) { patch<uint64_t>(P.Cameras, 16, ~0ULL); },
-                "expected sides of 1 to 16384"},
-               {[](Parts &P) { patch<double>(P.Cameras, 32, -1); },
-                "camera 7 has parameters that are no camera"},
-               {[](Parts &P) { patch<uint64_t>(P.Cameras, 0, 2); },
-                "cameras: the file ends within camera 1, expected 2 of them"},
-               {[](Parts &P) { patch<uint64_t>(P.Points, 0, ~0ULL); },
-                "points: the file ends within point 12"},
-               {[](Parts &P) { P.Points += '\0'; },
-                "points: 1 byte after the last record"},
-               {[](Parts &P) { P.Images = std::string(4, '\1'); },
-                "images: 4 bytes, expected the number of images first"},
-               {[](Parts &P) { P.Images = "1234"; },
-                "images: a text, expected the images of COLMAP in binary"},
-               {[](Parts &P) { patch<int32_t>(P.Images, 68, 3); },
-                "image a0.png has camera 3, expected one of the 1 cameras"},
-               // The number of points that it sees.
-               {[](Parts &P) { patch<uint64_t>(P.Images, 79, ~0ULL); },
-                "images: the file ends within image 0"}};
+  } Cases[] = {
+      {[](Parts &P) { patch<int32_t>(P.Cameras, 12, 7); },
+       "cameras: camera 7 has the model FOV, expected one of "
+       "SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL"},
+      {[](Parts &P) { patch<int32_t>(P.Cameras, 12, 99); },
+       "cameras: camera 7 has model number 99"},
+      {[](Parts &P) { patch<uint64_t>(P.Cameras, 16, ~0ULL); },
+       "expected sides of 1 to 16384"},
+      {[](Parts &P) { patch<double>(P.Cameras, 32, -1); },
+       "camera 7 has invalid parameters"},
+      {[](Parts &P) { patch<uint64_t>(P.Cameras, 0, 2); },
+       "cameras: truncated: the file ends in camera 1, expected 2 of them"},
+      {[](Parts &P) { patch<uint64_t>(P.Points, 0, ~0ULL); },
+       "points: truncated: the file ends in point 12"},
+      {[](Parts &P) { P.Points += '\0'; },
+       "points: 1 byte after the last record"},
+      {[](Parts &P) { P.Images = std::string(4, '\1'); },
+       "images: 4 bytes, expected the number of images first"},
+      {[](Parts &P) { P.Images = "1234"; },
+       "images: a text, expected the images of COLMAP in binary"},
+      {[](Parts &P) { patch<int32_t>(P.Images, 68, 3); },
+       "image a0.png has camera 3, expected one of the 1 cameras"},
+      // The number of points that it sees.
+      {[](Parts &P) { patch<uint64_t>(P.Images, 79, ~0ULL); },
+       "images: truncated: the file ends in image 0"}};
   for (const auto &[Change, Message] : Cases) {
     Parts P = Whole;
     Change(P);
@@ -349,20 +350,20 @@ TEST(ColmapText, EachKindOfDamageHasItsMessage) {
       {&Parts::Cameras, "PINHOLE", "ORANGE",
        "cameras:2: camera 7 has model ORANGE"},
       {&Parts::Cameras, "PINHOLE", "SIMPLE_PINHOLE",
-       "cameras:2: a line that is not as it should be"},
+       "cameras:2: malformed line"},
       {&Parts::Cameras, "PINHOLE 8", "PINHOLE 8.5", "8.5x6 pixels"},
       {&Parts::Cameras, "7 PINHOLE", "seven PINHOLE",
        "expected CAMERA_ID MODEL"},
       {&Parts::Cameras, "\r\n", "\n7 PINHOLE 8 6 1 1 1 1",
-       "cameras:3: camera 7 is there twice"},
-      {&Parts::Images, " 7 a0.png", " 7", "images:2: a line"},
+       "cameras:3: duplicate camera 7"},
+      {&Parts::Images, " 7 a0.png", " 7", "images:2: malformed line"},
       {&Parts::Images, " 7 a1.png", " 8 a1.png",
        "images:4: image a1.png has camera 8"},
       {&Parts::Images, "\n10 20 99 11 21 -1\n", "\n",
-       "images:3: a line that is not as it should be, expected X Y POINT3D_ID"},
-      {&Parts::Images, "99 11", "hello 11", "images:3: a line"},
-      {&Parts::Points, " 255 ", " 256 ", "points:2: a line"},
-      {&Parts::Points, "5 0 0 -0", "5 0 nan -0", "point 0 holds a NaN"}};
+       "images:3: malformed line, expected X Y POINT3D_ID"},
+      {&Parts::Images, "99 11", "hello 11", "images:3: malformed line"},
+      {&Parts::Points, " 255 ", " 256 ", "points:2: malformed line"},
+      {&Parts::Points, "5 0 0 -0", "5 0 nan -0", "point 0 has a NaN"}};
   for (const auto &[Part, What, With, Message] : Cases) {
     Parts P = Whole;
     P.*Part = replaced(P.*Part, What, With);

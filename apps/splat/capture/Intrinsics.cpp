@@ -24,9 +24,10 @@ Expected<bool> readFocal(const Json &Object, char Name, Intrinsics::Axis &To) {
     if (!Value)
       return Value.error();
     if (!(*Value > 0))
-      return Error{"", fmt::format("key {}: a focal length that is not "
-                                   "positive, expected a number of pixels",
-                                   Focal)};
+      return Error{"",
+                   fmt::format("key {}: a focal length that is not positive, "
+                               "expected a positive number of pixels",
+                               Focal)};
     To.Focal = *Value;
     return true;
   }
@@ -41,8 +42,8 @@ Expected<bool> readFocal(const Json &Object, char Name, Intrinsics::Axis &To) {
     if (const auto It = Object.find(Key); It != Object.end()) {
       const auto Value = finiteNumber(*It, Key);
       if (!Value || !(*Value > 0 && *Value * Unit < 3.14159))
-        return Error{"",
-                     fmt::format("key {} is wrong, expected {}", Key, Wanted)};
+        return Error{
+            "", fmt::format("key {} is invalid, expected {}", Key, Wanted)};
       To.Angle = *Value * Unit;
       return true;
     }
@@ -83,7 +84,7 @@ Expected<double> finiteNumber(const Json &Value, const std::string &Key) {
   if (Value.is_number() && std::isfinite(Value.get<double>()))
     return Value.get<double>();
   return Error{"",
-               fmt::format("key {} is wrong, expected a finite number", Key)};
+               fmt::format("key {} is invalid, expected a finite number", Key)};
 }
 
 Expected<Intrinsics> readIntrinsics(const Json &Frame, const Json &Document,

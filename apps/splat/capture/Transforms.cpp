@@ -81,8 +81,8 @@ CameraModel TransformsReader::readLens(const Json &Frame) {
     return {};
   }
   if (Lens->Model->IsParallel)
-    fail("a photograph by an orthographic camera, expected a pinhole's, a "
-         "fisheye's or a full sphere");
+    fail("a photograph of an orthographic camera, expected a pinhole, fisheye "
+         "or full-sphere camera");
   return *Lens;
 }
 
@@ -107,7 +107,7 @@ CameraPlace TransformsReader::readPlace(const Json &Frame, const char *Key) {
     }
   }
   if (!Good || !isRotation(C.Rotation))
-    fail(fmt::format("an unreadable pose, expected {} of a rotation and a "
+    fail(fmt::format("an invalid pose, expected {} with a rotation and a "
                      "translation, camera to world",
                      Key));
   return C;
@@ -127,7 +127,7 @@ void TransformsReader::readPose(const Json &Frame, CaptureView &V) {
       Three.erase(3);
     const auto Read = shutterMoments(Three);
     if (!Read)
-      fail(fmt::format("key rolling_shutter is wrong, expected start, across "
+      fail(fmt::format("key rolling_shutter is invalid, expected start, across "
                        "and down from -{:g} to {:g}",
                        MostShutterMoment, MostShutterMoment));
     Moments = Read.value_or(Moments);
@@ -163,7 +163,7 @@ void TransformsReader::readCamera(const Json &Frame, TransformsView &V) {
     const auto Number = number(Frame, Key);
     if (!Number || !(*Number >= 1 && *Number <= MaxImageSize) ||
         *Number != std::floor(*Number)) {
-      fail(fmt::format("key {} is missing or wrong, expected 1 to {} pixels",
+      fail(fmt::format("key {} is missing or invalid, expected 1 to {} pixels",
                        Key, MaxImageSize));
       return 1;
     }
@@ -183,7 +183,7 @@ void TransformsReader::readSplit(TransformsFile &T) {
       continue;
     if (!It->is_array() || !std::ranges::all_of(*It, &Json::is_string))
       return fail(
-          fmt::format("key {} is wrong, expected names of pictures", Key));
+          fmt::format("key {} is invalid, expected names of pictures", Key));
     for (const Json &Name : *It)
       HeldOut.insert(withoutDot(Name.get<std::string>()));
   }
@@ -197,10 +197,11 @@ void TransformsReader::readSplit(TransformsFile &T) {
 
 Expected<TransformsFile> TransformsReader::read() {
   if (!Document.is_object())
-    return Error{Where, "no JSON object, expected an object with frames"};
+    return Error{Where, "not a JSON object, expected an object with frames"};
   const auto Frames = Document.find("frames");
   if (Frames == Document.end() || !Frames->is_array() || Frames->empty())
-    return Error{Where, "no frames, expected a list of at least one"};
+    return Error{Where,
+                 "no frames, expected a list of at least one frame frame"};
   if (auto Unsupported = unsupportedIn(Document))
     fail(*Unsupported);
   TransformsFile T;
@@ -209,8 +210,9 @@ Expected<TransformsFile> TransformsReader::read() {
     const auto Path = Frame.is_object() ? Frame.find("file_path") : Frame.end();
     if (!Frame.is_object() || Path == Frame.end() || !Path->is_string() ||
         Path->get<std::string>().empty()) {
-      fail(fmt::format("frame {} has no file_path, expected a picture's name",
-                       T.Views.size()));
+      fail(fmt::format(
+          "frame {} has no file_path, expected the name of a picture",
+          T.Views.size()));
       break;
     }
     TransformsView V;
@@ -222,7 +224,7 @@ Expected<TransformsFile> TransformsReader::read() {
       if (Mask->is_string())
         V.Mask = Mask->get<std::string>();
       else
-        fail("key mask_path is wrong, expected a file's name");
+        fail("key mask_path is invalid, expected a file name");
     }
     if (auto Unsupported = unsupportedIn(Frame))
       fail(*Unsupported);
@@ -236,7 +238,7 @@ Expected<TransformsFile> TransformsReader::read() {
     if (It->is_string())
       T.Points = It->get<std::string>();
     else
-      fail("key ply_file_path is wrong, expected a file's name");
+      fail("key ply_file_path is invalid, expected a file name");
   }
   if (Problem)
     return *Problem;
@@ -259,7 +261,8 @@ Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {
     return Read.error();
   const PlyElement *Vertex = Read->header().find("vertex");
   if (!Vertex || Vertex->HasLists)
-    return Error{Where, "no element vertex of numbers, expected the points"};
+    return Error{
+        Where, "no element vertex with scalar properties, expected the points"};
   const auto Position = Vertex->reals(Where, {"x", "y", "z"});
   if (!Position)
     return Position.error();
@@ -272,7 +275,7 @@ Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {
     const Bytes Row = Read->row(*Vertex, I);
     for (const PlyReal At : *Position)
       if (!std::isfinite(P.Positions.emplace_back(loadReal(Row, At))))
-        return Error{Where, fmt::format("point {} holds a NaN or an infinity, "
+        return Error{Where, fmt::format("point {} has a NaN or an infinity, "
                                         "expected finite coordinates",
                                         I)};
     for (const std::size_t At : *Colour)

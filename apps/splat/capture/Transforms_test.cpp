@@ -167,7 +167,7 @@ TEST(Transforms, ASphereNeedsNoFocalLength) {
   J.erase("w");
   const auto NoSize = parsed(J.dump());
   ASSERT_FALSE(NoSize);
-  EXPECT_NE(NoSize.error().What.find("key w is missing or wrong"),
+  EXPECT_NE(NoSize.error().What.find("key w is missing or invalid"),
             std::string::npos);
 }
 
@@ -183,10 +183,10 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
       {[](Json &J) { J["frames"][1].erase("file_path"); },
        "frame 1 has no file_path"},
       {[](Json &J) { J["k1"] = "much"; },
-       "frame pictures/a0.png: key k1 is wrong, expected numbers from -1e+06 "
+       "frame pictures/a0.png: key k1 is invalid, expected numbers from -1e+06 "
        "to 1e+06"},
       {[](Json &J) { J["camera_model"] = "FISHEYE624"; },
-       "frame pictures/a0.png: key camera_model calls for the camera model "
+       "frame pictures/a0.png: key camera_model selects the camera model "
        "\"FISHEYE624\", which is not supported, expected PINHOLE, OPENCV, "},
       {[](Json &J) { J["camera_model"] = 3; },
        "frame pictures/a0.png: key camera_model is 3, expected a camera "
@@ -196,53 +196,53 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
       {[](Json &J) { J["is_fisheye"] = "true"; },
        "key is_fisheye is \"true\", expected true or false"},
       {[](Json &J) { J["is_fisheye"] = true; },
-       "key is_fisheye calls for OPENCV_FISHEYE, but the camera's model is"},
+       "key is_fisheye selects OPENCV_FISHEYE, but the camera model is"},
       {[](Json &J) { J["lens_model"] = "opencv_fisheye"; },
-       "keys camera_model and lens_model call for two camera models, expected "
-       "one"},
+       "keys camera_model and lens_model select different camera models, "
+       "expected one model"},
       {[](Json &J) { J["camera_type"] = "omnidirectional"; },
-       "key camera_type calls for the camera model \"omnidirectional\""},
+       "key camera_type selects the camera model \"omnidirectional\""},
       {[](Json &J) { J["camera_model"] = "ORTHOPHOTO"; },
-       "a photograph by an orthographic camera, expected a pinhole's"},
+       "a photograph of an orthographic camera, expected a pinhole"},
       {[](Json &J) { J["k5"] = 0.1; },
-       "key k5 means different things to different programs, expected "
-       "camera_model FULL_OPENCV with it, or 0"},
-      {[](Json &J) { J["dist_coeffs"] = 0.1; }, "key dist_coeffs is wrong"},
+       "key k5 is ambiguous between programs, expected camera_model "
+       "FULL_OPENCV, or 0"},
+      {[](Json &J) { J["dist_coeffs"] = 0.1; }, "key dist_coeffs is invalid"},
       {[](Json &J) {
          J["camera_model"] = "EQUIRECTANGULAR";
          J["k1"] = 0.1;
        },
-       "key k1 calls for a distortion by k1, which a camera of model "
+       "key k1 sets the distortion coefficient k1, which the camera model "
        "EQUIRECTANGULAR does not have"},
       {[](Json &J) {
          J["camera_model"] = "OPENCV_FISHEYE";
          J["p2"] = 0.1;
        },
-       "key p2 calls for a distortion by p2, which a camera of model "
+       "key p2 sets the distortion coefficient p2, which the camera model "
        "OPENCV_FISHEYE does not have"},
       {[](Json &J) { J["frames"][1]["mask_path"] = 3; },
-       "frame pictures/a1.png: key mask_path is wrong"},
+       "frame pictures/a1.png: key mask_path is invalid"},
       {[](Json &J) { J["frames"][1]["transform_matrix"][2] = 0; },
-       "frame pictures/a1.png: an unreadable pose"},
+       "frame pictures/a1.png: an invalid pose"},
       {[](Json &J) { J["frames"][1]["transform_matrix"][0][0] = 2; },
-       "an unreadable pose"},
+       "an invalid pose"},
       {[](Json &J) { J["frames"][1]["transform_matrix"][0][3] = "x"; },
-       "an unreadable pose"},
+       "an invalid pose"},
       {[](Json &J) { J["frames"][0].erase("transform_matrix"); },
-       "an unreadable pose"},
+       "an invalid pose"},
       {[](Json &J) { J["rolling_shutter"] = {0, 0, "x"}; },
-       "key rolling_shutter is wrong, expected start, across and down"},
+       "key rolling_shutter is invalid, expected start, across and down"},
       {[](Json &J) { J["rolling_shutter_time"] = 0.01; },
-       "key rolling_shutter_time calls for a rolling shutter by velocities, "
+       "key rolling_shutter_time requires a rolling shutter by velocities, "
        "which is not supported"},
       {[](Json &J) { J["frames"][1]["rolling_shutter_time"] = 0.01; },
-       "frame pictures/a1.png: key rolling_shutter_time calls for"},
+       "frame pictures/a1.png: key rolling_shutter_time requires"},
       {[](Json &J) { J["frames"][1]["transform_matrix_end"] = 1; },
-       "an unreadable pose, expected transform_matrix_end"},
-      {[](Json &J) { J.erase("w"); }, "key w is missing or wrong"},
-      {[](Json &J) { J["h"] = 6.5; }, "key h is missing or wrong"},
+       "an invalid pose, expected transform_matrix_end"},
+      {[](Json &J) { J.erase("w"); }, "key w is missing or invalid"},
+      {[](Json &J) { J["h"] = 6.5; }, "key h is missing or invalid"},
       {[](Json &J) { J["fl_y"] = -1; }, "a focal length that is not positive"},
-      {[](Json &J) { J["cx"] = "left"; }, "key cx is wrong"},
+      {[](Json &J) { J["cx"] = "left"; }, "key cx is invalid"},
       {[](Json &J) {
          J.erase("fl_x");
          J.erase("fl_y");
@@ -252,18 +252,19 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
          J.erase("fl_x");
          J["camera_angle_x"] = 4;
        },
-       "key camera_angle_x is wrong, expected radians between 0 and pi"},
+       "key camera_angle_x is invalid, expected radians between 0 and pi"},
       {[](Json &J) { J["frames"][1]["x_fov"] = 180; },
-       "key x_fov is wrong, expected degrees between 0 and 180"},
+       "key x_fov is invalid, expected degrees between 0 and 180"},
       {[](Json &J) { J["ftheta_p1"] = 1e-3; },
-       "key ftheta_p1 calls for an f-theta lens, which is not supported"},
-      {[](Json &J) { J["latlong"] = true; }, "key latlong calls for"},
+       "key ftheta_p1 requires an f-theta lens, which is not supported"},
+      {[](Json &J) { J["latlong"] = true; }, "key latlong requires"},
       {[](Json &J) { J["frames"][0]["transform_matrix"][3][3] = 2; },
-       "an unreadable pose"},
+       "an invalid pose"},
       {[](Json &J) { J["test_filenames"] = {"pictures/a7.png"}; },
        "key val_filenames or test_filenames has pictures/a7.png, expected "
        "file_path of a frame"},
-      {[](Json &J) { J["ply_file_path"] = 1; }, "key ply_file_path is wrong"}};
+      {[](Json &J) { J["ply_file_path"] = 1; },
+       "key ply_file_path is invalid"}};
   for (const auto &[Change, Message] : Cases) {
     Json J = sample();
     Change(J);

@@ -112,9 +112,7 @@ Expected<Split> splitViews(const SweepPlan &P,
     if (std::none_of(P.Views.begin(), P.Views.end(),
                      [&](const Camera &C) { return C.Name == Name; }))
       return usage(fmt::format(
-          "--check {}: no such view, expected one of "
-          "those that are measured{}",
-          Name,
+          "--check {}: no such view, expected one of --views{}", Name,
           didYouMean(Name, std::views::transform(P.Views, &Camera::Name))));
   for (const Camera &View : P.Views) {
     // Unless told, the last of several views checks.
@@ -125,7 +123,8 @@ Expected<Split> splitViews(const SweepPlan &P,
     (Checks ? S.Check : S.Choose).push_back(&View);
   }
   if (S.Choose.empty())
-    return usage("--check names all views, expected one that chooses");
+    return usage("--check names all views, expected at least one view for "
+                 "choosing the setting");
   return S;
 }
 
@@ -363,7 +362,7 @@ Runner addAccuracy(CLI::App &App) {
   addStudyOptions(App, A->Study, "point",
                   "the scene's or the capture's name and -accuracy");
   App.add_flag("--energy", A->Energy,
-               "The chip's energy as a further axis (docs/energy.md)");
+               "Add energy as an objective (docs/energy.md)");
   const std::size_t First = App.get_options().size();
   addSceneOptions(App, A->Scene);
   App.get_option("scene")->required(false);
@@ -372,10 +371,10 @@ Runner addAccuracy(CLI::App &App) {
                            "Views to measure (default: all)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
-  takesView(
-      App.add_option("--check", A->Check,
-                     "Of these, views that check the recommended setting and "
-                     "do not choose it (default: the last of several)"))
+  takesView(App.add_option(
+                "--check", A->Check,
+                "Views of these that validate the recommended setting and are "
+                "not used for choosing it (default: the last of several)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
   takesSomeOf(
@@ -384,17 +383,18 @@ Runner addAccuracy(CLI::App &App) {
       ->delimiter(',')
       ->option_text("KNOB,...");
   App.add_option("--at-least", A->AtLeast,
-                 "PSNR that the recommended setting has on every view that "
-                 "chooses (default 50dB)")
+                 "Minimum PSNR of the recommended setting on every view that "
+                 "is used for choosing (default 50dB)")
       ->option_text("DECIBELS");
   App.add_option("--products", A->Products,
-                 "Most combinations of the fronts' knobs (default 64)")
+                 "Maximum number of combinations of the Pareto fronts' knobs "
+                 "(default 64)")
       ->option_text("N");
-  App.add_flag("--no-cores", A->NoCores, "Leave out the kernels-only path");
+  App.add_flag("--no-cores", A->NoCores, "Skip the simt path");
   App.add_flag("--no-host", A->NoHost,
-               "Leave out the host's time for simulating in several ways");
+               "Skip the measurement of simulation time on the host");
   App.add_option("--thumb-width", A->ThumbWidth,
-                 "Width of the page's pictures, px (default 240)")
+                 "Width of the page's pictures in pixels (default 240)")
       ->check(isBetween(8U, 4096U))
       ->option_text("N");
   addTrainOptions(App, A->Train, optionsFrom(App, First));

@@ -20,42 +20,42 @@ namespace vorion::splat {
 
 void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
                      const std::vector<CLI::Option *> &OfScenes) {
-  CLI::Option *Train = App.add_option(
-      "--train", P.Capture,
-      "Measure training on this capture instead of pictures of a scene: "
-      "gradients, time and PSNR under every reciprocal unit and order of sums "
-      "(docs/accuracy.md)");
+  CLI::Option *Train =
+      App.add_option("--train", P.Capture,
+                     "Measure training on this capture instead of rendering a "
+                     "scene: gradients, time and PSNR with each reciprocal "
+                     "unit and summation order (docs/accuracy.md)");
   Train->option_text("CAPTURE");
   for (CLI::Option *O : OfScenes)
     Train->excludes(O);
   const std::size_t First = App.get_options().size();
-  App.add_option("--iterations", P.Iterations,
-                 fmt::format("--train: of a run (default {})", P.Iterations))
-      ->check(isIterations());
   App.add_option(
-         "--seeds", P.Seeds,
-         fmt::format("--train: runs of a setting (default {})", P.Seeds))
+         "--iterations", P.Iterations,
+         fmt::format("--train: iterations per run (default {})", P.Iterations))
+      ->check(isIterations());
+  App.add_option("--seeds", P.Seeds,
+                 fmt::format("--train: runs per setting (default {})", P.Seeds))
       ->check(isBetween(1U, 1000U));
   App.add_option("--score-every", P.ScoreEvery,
-                 fmt::format("--train: iterations from one PSNR of the "
-                             "held-out views to the next (default {})",
+                 fmt::format("--train: iterations between evaluations of the "
+                             "held-out views (default {})",
                              P.ScoreEvery))
       ->check(isIterations());
   App.add_option("--time-every", P.TimeEvery,
-                 fmt::format("--train: of so many iterations one is timed "
-                             "(default {})",
+                 fmt::format("--train: time one of N iterations (default {})",
                              P.TimeEvery))
       ->check(isIterations());
   App.add_option("--downscale", P.Downscale,
-                 "--train: pictures so many times smaller (default 1)")
+                 "--train: downsampling factor of the photographs (default 1)")
       ->check(isBetween(1, 64));
   App.add_option("--max-gaussians", P.MostGaussians,
-                 "--train: no more Gaussians than this");
-  App.add_option("--exclude", P.Exclude, "--train: leave out this picture")
+                 "--train: maximum number of Gaussians");
+  App.add_option("--exclude", P.Exclude,
+                 "--train: exclude this picture; may be repeated")
       ->allow_extra_args(false);
   addOutsideOption(App, P.AllowOutside);
   addBackgroundOption(App, P.Background,
-                      "--train: colour r,g,b behind the scene (default 0,0,0)");
+                      "--train: background colour (default 0,0,0)");
   for (CLI::Option *O : optionsFrom(App, First))
     O->needs(Train);
 }

@@ -133,8 +133,8 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
                        const Analysis &R) {
   const double Pixels = static_cast<double>(R.Pixels);
   std::string Text = fmt::format(
-      "{} {}x{}: {} rules, support {}\n{} seen, {:.2f} blends a "
-      "pixel, {:.2f} % saturated\n{:<22}",
+      "{} {}x{}: {} rules, support {}\n{} seen, {:.2f} blends per pixel, "
+      "{:.2f} % saturated\n{:<22}",
       escaped(C.Name), C.Width, C.Height, name(A.Convention), name(A.Reach),
       counted(R.Visible, "Gaussian"), static_cast<double>(R.Blends) / Pixels,
       100 * static_cast<double>(R.Saturated) / Pixels, "tile size (pixels)");
@@ -154,8 +154,8 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
       Text += fmt::format("{:>12.1f}", static_cast<double>(Value(L)));
     Text += '\n';
   };
-  Row("entries a tile, mean", [](const auto &L) { return L.Mean; });
-  Row("entries a tile, most", [](const auto &L) { return L.Longest; });
+  Row("entries per tile, mean", [](const auto &L) { return L.Mean; });
+  Row("entries per tile, max.", [](const auto &L) { return L.Longest; });
   for (const std::size_t Percent : {25, 50, 75, 100})
     Row(fmt::format("occluded at {} % (%)", Percent).c_str(),
         [&](const auto &L) { return 100 * L.Occluded[Percent]; });
@@ -164,13 +164,13 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
 
 std::string textOf(const std::string &Beside, const OrderAnalysis &O) {
   const auto Line = [&](const std::string &By, const OrderChange &C) {
-    return fmt::format(
-        "{:<22}{:>12} of {} pairs in pixels turn ({:.3f} %), PSNR {:.2f} dB\n",
-        By, C.Turned, O.Pairs,
-        O.Pairs == 0 ? 0
-                     : 100 * static_cast<double>(C.Turned) /
-                           static_cast<double>(O.Pairs),
-        C.Db);
+    return fmt::format("{:<22}{:>12} of {} pixel-Gaussian pairs change order "
+                       "({:.3f} %), PSNR {:.2f} dB\n",
+                       By, C.Turned, O.Pairs,
+                       O.Pairs == 0 ? 0
+                                    : 100 * static_cast<double>(C.Turned) /
+                                          static_cast<double>(O.Pairs),
+                       C.Db);
   };
   return Line("order of " + escaped(Beside), O.ByOtherView) +
          Line("order along rays", O.AlongRays);
@@ -300,12 +300,13 @@ Runner addAnalyze(CLI::App &App) {
   addCameraOptions(App, A->Cameras, /*Several=*/false);
   takesView(App.add_option("--view", A->View,
                            "Name or number of the view (default: the first)"));
-  takesView(App.add_option(
-      "--order-beside", A->OrderBeside,
-      "Say how many Gaussians of a pixel change places in the order of this "
-      "view, and in the order along the pixel's ray (docs/numerics.md)"));
-  App.add_option("--width", A->Width,
-                 "Width in pixels, height in proportion (default: the view's)")
+  takesView(App.add_option("--order-beside", A->OrderBeside,
+                           "Count the Gaussians of each pixel whose blend "
+                           "order differs in this view's order, and in the "
+                           "order along the pixel's ray (docs/numerics.md)"));
+  App.add_option(
+         "--width", A->Width,
+         "Width in pixels; the aspect ratio is preserved (default: the view's)")
       ->check(isBetween(1, MaxImageSize));
   writesFile(App.add_option("--json", A->JsonFile, "Write all counts"),
              {".json"});
@@ -313,16 +314,17 @@ Runner addAnalyze(CLI::App &App) {
       "--plots", A->Plots,
       "Write PREFIX-invocations.svg, -occlusion.svg and -lists.svg"));
   addChoice(App, "--rules", A->Convention, {Rules::Inria, Rules::Gsplat},
-            "Convention to follow");
+            "Rendering convention");
   addChoice(
       App, "--support", A->Reach,
       {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
-      "Pixels that a Gaussian may reach, for lists and occlusion");
-  App.add_option("--cutoff", A->Options.Cutoff,
-                 "Transmittance at which a pixel is full (default 0.0001)")
+      "Rule for the pixels that a Gaussian covers, for lists and occlusion");
+  App.add_option(
+         "--cutoff", A->Options.Cutoff,
+         "Transmittance below which a pixel is saturated (default 0.0001)")
       ->check(isBetween(0.0, 1.0));
   App.add_option("--threads", A->Options.Threads,
-                 "Host threads, 0 for all; changes no result")
+                 "Host threads (0: all); results do not depend on it")
       ->check(isBetween(0U, 1024U));
   return [A](const DeviceOptions &) { return run(*A); };
 }

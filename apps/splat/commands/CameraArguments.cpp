@@ -69,36 +69,37 @@ void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
   takesFile(App.add_option(
                 "--cameras", A.File,
                 "Views: INRIA's cameras.json, transforms.json, nerfstudio's "
-                "camera path, or a folder with COLMAP's cameras (default: a "
-                "view that shows much of the scene is found)"),
+                "camera path, or a folder with COLMAP's cameras (default: an "
+                "automatic view that covers much of the scene)"),
             {".json", ".bin", ".txt"});
-  App.add_flag("--distorted", A.Distorted,
-               "Of a capture, draw what lies over the photographs as they are, "
-               "through their lenses (default: over what training makes of "
-               "them, without distortion)")
+  App.add_flag(
+         "--distorted", A.Distorted,
+         "For a capture, render with the lens distortion of the photographs "
+         "(default: with the undistorted cameras that training uses)")
       ->needs("--cameras");
   if (Several) {
     App.add_option("--size", A.Size,
-                   fmt::format("Size of pictures, with the cameras' horizontal "
-                               "field of view (default: theirs, or {})",
+                   fmt::format("Resolution, at the cameras' horizontal field "
+                               "of view (default: the cameras', or {})",
                                DefaultSize))
         ->option_text("WIDTHxHEIGHT");
-    App.add_option("--orbit", A.Orbit,
-                   "N views around what the cameras look at, or around the "
-                   "scene's middle, from the first view on")
+    App.add_option(
+           "--orbit", A.Orbit,
+           "Render N views on an orbit, from the first view on, around the "
+           "point that the cameras look at, or around the scene's centre")
         ->option_text("N")
         ->check(isBetween(1, 9999));
     App.add_option("--frames", A.Frames,
-                   "N views along a smooth path through the views")
+                   "Render N views along a smooth path through the views")
         ->option_text("N")
         ->check(isBetween(2, 9999))
         ->excludes("--orbit");
   }
   App.add_option("--up", A.Up,
-                 fmt::format("What is up in the scene, for {} and for a view "
-                             "that is found (default: as the cameras have it, "
-                             "or by the scene's flat Gaussians)",
-                             Several ? "--orbit" : "turning around it"))
+                 fmt::format("Up direction of the scene, for {} and for an "
+                             "automatic view (default: that of the cameras, or "
+                             "estimated from the scene's flat Gaussians)",
+                             Several ? "--orbit" : "navigation"))
       ->check(isOneOf({"x", "-x", "y", "-y", "z", "-z"}));
 }
 
@@ -110,7 +111,7 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
   std::vector<Camera> Cameras;
   if (A.File.empty()) {
     if (!asksForAll(A))
-      return usage("--view names a camera, expected --cameras with it");
+      return usage("--view names a camera, expected --cameras");
     // The farther near plane of the two rules.
     Cameras = {goodView(S, focusOf(S, parseUp(A.Up)), Size->first, Size->second,
                         nearLimit(Rules::Inria))};
@@ -138,8 +139,8 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
     return orbit(Keys.front(), Centre, Up, A.Orbit);
   }
   if (Keys.size() < 2)
-    return usage("--frames goes through several views, expected --cameras "
-                 "with at least two");
+    return usage(
+        "--frames needs several views, expected --cameras with at least two");
   return alongPath(Keys, A.Frames);
 }
 

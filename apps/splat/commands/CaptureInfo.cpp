@@ -67,7 +67,7 @@ std::string textOf(const std::string &Path, const Capture &C) {
                   escaped(Path), name(C.Format),
                   counted(C.Views.size(), "view"), C.heldOut(), C.HeldOutBy);
   if (C.WithoutPicture > 0)
-    Text += fmt::format("left out     {} without a picture\n",
+    Text += fmt::format("skipped      {} without a picture\n",
                         counted(C.WithoutPicture, "view"));
   Text += fmt::format("pictures     {} x {} pixels\n", Span(F.Width),
                       Span(F.Height));
@@ -75,21 +75,21 @@ std::string textOf(const std::string &Path, const Capture &C) {
                       Span(F.FocalY));
   const std::size_t Alone = C.photographsAlone();
   if (const std::size_t Bend = C.distorted() - Alone; Bend > 0)
-    Text += fmt::format("lenses       bend in {}: training undistorts "
+    Text += fmt::format("lenses       distorted in {}: training undistorts "
                         "pictures, unless --distorted is given\n",
                         counted(Bend, "view"));
   if (Alone > 0)
-    Text +=
-        fmt::format("lenses       {} with full spheres or a rolling shutter: "
-                    "training needs --distorted\n",
-                    counted(Alone, "view"));
+    Text += fmt::format(
+        "lenses       {} with full-sphere cameras or a rolling shutter: "
+        "training needs --distorted\n",
+        counted(Alone, "view"));
   Text += fmt::format("cameras      within {:.6g} of ({:.6g}, {:.6g}, {:.6g}), "
                       "extent {:.6g}\n",
                       F.Ring.Radius, F.Ring.Centre[0], F.Ring.Centre[1],
                       F.Ring.Centre[2], F.Ring.extent());
   if (C.Points.size() == 0)
     return Text +
-           fmt::format("points       none: training starts from random ones "
+           fmt::format("points       none: training starts from random points "
                        "around the origin, seen by {}\n",
                        counted(viewsOfRandomPoints(C), "view"));
   return Text + fmt::format("points       {}: x {}, y {}, z {}\n",
@@ -148,21 +148,22 @@ Expected<Success> describeCapture(const std::string &Path,
 void addMasksOption(CLI::App &App, MaskSource &Masks) {
   addChoice(App, "--masks", Masks,
             {MaskSource::None, MaskSource::Alpha, MaskSource::Files},
-            "Pixels that do not count: none, transparent ones, or those that "
+            "Pixels that are masked out: none, transparent ones, or those that "
             "are black in masks/NAME.png or the frame's mask_path");
 }
 
 void addHoldOutOption(CLI::App &App, std::optional<unsigned> &Every) {
   App.add_option("--hold-out", Every,
-                 "Hold out every so many-th view by name, 0: none (default: as "
-                 "the capture says, or 8)")
+                 "Hold out every N-th view in order of names, 0: none "
+                 "(default: as recorded in the capture, else 8)")
       ->option_text("N")
       ->check(isBetween(0U, 1000000U));
 }
 
 void addOutsideOption(CLI::App &App, bool &Allow) {
-  App.add_flag("--allow-outside", Allow,
-               "A capture's pictures and points may lie outside its folder");
+  App.add_flag(
+      "--allow-outside", Allow,
+      "Allow a capture's pictures and points to be outside its folder");
 }
 
 } // namespace vorion::splat

@@ -16,48 +16,50 @@ Runner addCompare(CLI::App &App) {
                                  pictureEndings().end());
   Kinds.emplace_back(".json");
   takesFile(App.add_option("a", A->Reference,
-                           "What to expect: a picture of any kind that render "
-                           "writes, or .json"),
+                           "Expected result: a picture in any format that "
+                           "render writes, or .json"),
             Kinds)
       ->required();
-  takesFile(App.add_option("b", A->Picture, "What there is"), Kinds)
+  takesFile(App.add_option("b", A->Picture, "Actual result"), Kinds)
       ->required();
   CLI::Option *Pairs = App.add_flag(
       "--pairs", A->Pairs,
-      "Compare tile, depth_bits and index instead; they must be equal");
-  CLI::Option *Times = App.add_flag(
-      "--times", A->Times,
-      "Compare times instead: what `splat render --time --json` or `vorion-sim "
-      "--time --stats` wrote");
+      "Compare the arrays tile, depth_bits and index, which must be equal");
+  CLI::Option *Times =
+      App.add_flag("--times", A->Times,
+                   "Compare timing reports of `splat render --time --json` or "
+                   "`vorion-sim --time --stats`");
   Times->excludes(Pairs);
-  App.add_option("--at-most", A->AtMost,
-                 "Exit with 1 if b takes longer than a by more than this, per "
-                 "cent")
+  App.add_option(
+         "--at-most", A->AtMost,
+         "Exit with 1 if b is slower than a by more than this, in percent")
       ->needs(Times)
       ->check(isBetween(0.0, 1e6));
   App.add_flag("--across", A->Across,
-               "Times of different machines, or of different work, too")
+               "Allow different machines or different work")
       ->needs(Times);
   writesFile(
       App.add_option("--html", A->Html,
-                     "Write a page that shows both frames, of one view each"),
+                     "Write a page that compares two frames, of one view each"),
       {".html"})
       ->needs(Times);
-  writesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});
+  writesFile(App.add_option("--json", A->Json, "Write the scores as JSON"),
+             {".json"});
   const auto AddOfPictures = [&](const char *Flag, auto &Value,
                                  const char *Help) {
     // Pairs that differ anywhere fail, whatever the bounds on pictures.
     App.add_option(Flag, Value, Help)->excludes(Pairs)->excludes(Times);
   };
-  AddOfPictures("--mask", A->Mask,
-                "Doubtful pixels: .npz whose arrays mask* are not 0 there");
+  AddOfPictures(
+      "--mask", A->Mask,
+      "Doubtful pixels: those where an array mask* of this .npz is not 0");
   takesFile(App.get_option("--mask"), {".npz"});
   AddOfPictures("--min-db", A->MinDb,
-                "Exit with 1 if it is less outside doubtful pixels");
+                "Exit with 1 if the PSNR outside doubtful pixels is lower");
   AddOfPictures("--min-db-all", A->MinDbAll,
-                "Exit with 1 if it is less over all pixels");
+                "Exit with 1 if the PSNR over all pixels is lower");
   AddOfPictures("--max-doubtful", A->MaxDoubtful,
-                "Exit with 1 if more pixels are doubtful, per cent");
+                "Exit with 1 if more pixels are doubtful, in percent");
   // Without a mask no pixel is doubtful, and the bound would always hold.
   App.get_option("--max-doubtful")
       ->needs("--mask")

@@ -37,9 +37,10 @@ Expected<Npz> readPairs(const std::string &Path) {
   for (const char *Name : Names) {
     const NpyShape *Found = File->find(Name);
     if (!Found || Found->Type != "i4")
-      return Error{Path, fmt::format("no int32 array {}, expected what "
-                                     "--dump-pairs writes",
-                                     Name)};
+      return Error{
+          Path,
+          fmt::format("no int32 array {}, expected a file of --dump-pairs",
+                      Name)};
     auto Array = File->read(Name);
     if (!Array)
       return Array.error();
@@ -103,12 +104,12 @@ Expected<Success> comparePairs(const CompareArguments &A) {
     if (auto Written = writeReport(A, Pairs, Others, Found); !Written)
       return Written;
   if (Found)
-    return Error{A.Picture,
-                 fmt::format("{}, {} differs from place {} on, expected the {} "
-                             "of {}",
-                             counted(Others, "pair"), Found->Array,
-                             Found->Place, counted(Pairs, "pair"), A.Reference),
-                 ExitCode::GuestFailed};
+    return Error{
+        A.Picture,
+        fmt::format("{}, {} differs from index {} on, expected the {} of {}",
+                    counted(Others, "pair"), Found->Array, Found->Place,
+                    counted(Pairs, "pair"), A.Reference),
+        ExitCode::GuestFailed};
   printOut("equal: {}\n", counted(Pairs, "pair"));
   return Success{};
 }

@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char *Metric = "PSNR, peak 1, linear unclamped floats";
 constexpr const char *EightBitMetric =
-    "PSNR, peak 1, 8-bit values: floats are clamped and rounded to them";
+    "PSNR, peak 1, 8-bit values: floats are clamped and rounded to 8 bits";
 
 /// \p I as a picture of 8 bits has it. What is no finite number stays, to be
 /// counted.
@@ -62,8 +62,8 @@ Expected<std::vector<uint8_t>> readMask(const std::string &File,
       Mask[I] |= static_cast<uint8_t>(Values[I] != 0);
   }
   if (!Found)
-    return Error{File, "no array whose name begins with mask, expected one at "
-                       "least"};
+    return Error{File,
+                 "no array whose name begins with mask, expected at least one"};
   return Mask;
 }
 
@@ -71,9 +71,7 @@ Expected<std::vector<uint8_t>> readMask(const std::string &File,
 std::string notFinite(const Difference &D) {
   return D.NotFinite == 0
              ? ""
-             : fmt::format(", {} of them with values that are no finite "
-                           "numbers",
-                           D.NotFinite);
+             : fmt::format(", {} of them with non-finite values", D.NotFinite);
 }
 
 void print(const char *What, const Difference &D) {

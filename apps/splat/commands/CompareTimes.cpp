@@ -88,12 +88,12 @@ Expected<Success> compareTimes(const CompareArguments &A) {
   if (!A.AtMost ||
       Second->Milliseconds <= First->Milliseconds * (1 + *A.AtMost / 100))
     return Success{};
-  return Error{A.Picture,
-               fmt::format("{:.3f} ms of {}, expected at most {} % more than "
-                           "{:.3f}",
-                           Second->Milliseconds, printable(Second->On),
-                           *A.AtMost, First->Milliseconds),
-               ExitCode::GuestFailed};
+  return Error{
+      A.Picture,
+      fmt::format("{:.3f} ms of {}, expected at most {} % above {:.3f}",
+                  Second->Milliseconds, printable(Second->On), *A.AtMost,
+                  First->Milliseconds),
+      ExitCode::GuestFailed};
 }
 
 } // namespace vorion::splat

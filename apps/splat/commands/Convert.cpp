@@ -41,8 +41,8 @@ void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
                const Drawing &D) {
   if (!W.KeepsDrawing)
     printDiagnostic("splat", "warning", Path,
-                    fmt::format("the file cannot say how the scene is drawn, "
-                                "expected {}{} with it",
+                    fmt::format("the format does not record the rendering "
+                                "mode, expected {}{} when rendering it",
                                 D.Antialiased ? "--antialiased" : "",
                                 D.Dilation
                                     ? fmt::format(" --dilation {}", *D.Dilation)
@@ -58,8 +58,8 @@ void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
     if (Most > 0)
       Lost.push_back(fmt::format("{} {:.2g}", Name, Most));
   if (W.ShDegree < S.ShDegree)
-    Lost.push_back(
-        fmt::format("harmonics above degree {} are dropped", W.ShDegree));
+    Lost.push_back(fmt::format(
+        "spherical harmonics above degree {} are dropped", W.ShDegree));
   printOut("{}\n", Lost.empty() ? "nothing is lost"
                                 : fmt::format("lost at most: {}",
                                               fmt::join(Lost, ", ")));
@@ -76,7 +76,7 @@ Expected<Success> joinOthers(const SceneArguments &First,
     if (!Read)
       return Read.error();
     if (!Read->DrawnAs.drawsAs(To.DrawnAs))
-      return Error{Path, "is drawn another way than the scenes before it "
+      return Error{Path, "has another rendering mode than the preceding scenes "
                          "(antialiased, dilation), expected --antialiased or "
                          "--no-antialiased, and --dilation, for all"};
     To.Dropped += Read->Dropped;
@@ -163,7 +163,7 @@ Expected<Success> run(const ConvertArguments &A) {
   for (const auto &Left : Changes->Left)
     printOut("{}\n", Left.Text);
   if (Changes->Reordered)
-    printOut("put {} of {} Gaussians in another place, in Morton order\n",
+    printOut("reordered {} of {} Gaussians along the Morton curve\n",
              *Changes->Reordered, File->Gaussians.size());
   const auto Written = writeScene(A.Output, File->Gaussians, File->DrawnAs);
   if (!Written)
@@ -186,18 +186,20 @@ Expected<Success> run(const ConvertArguments &A) {
 Runner addConvert(CLI::App &App) {
   auto A = std::make_shared<ConvertArguments>();
   addSceneOptions(App, A->Scene);
-  takesFile(App.add_option("more", A->More, "Scenes that are joined with it"));
-  writesFile(App.add_option(
-                 "-o,--output", A->Output,
-                 fmt::format("Scene to write, in the format of its ending: "
-                             "{} (.ply is INRIA's PLY, which keeps every bit)",
-                             fmt::join(writtenEndings(), ", "))),
-             {writtenEndings().begin(), writtenEndings().end()})
+  takesFile(
+      App.add_option("more", A->More, "Further scenes, appended to the first"));
+  writesFile(
+      App.add_option(
+          "-o,--output", A->Output,
+          fmt::format("Scene to write; the file extension selects the format: "
+                      "{} (.ply is INRIA's PLY, which is lossless)",
+                      fmt::join(writtenEndings(), ", "))),
+      {writtenEndings().begin(), writtenEndings().end()})
       ->required();
   addEditOptions(App, A->Edits);
-  writesFile(
-      App.add_option("--json", A->JsonFile, "Write what was done and lost"),
-      {".json"});
+  writesFile(App.add_option("--json", A->JsonFile,
+                            "Write a report with the edits and the losses"),
+             {".json"});
   return [A](const DeviceOptions &) { return run(*A); };
 }
 

@@ -84,12 +84,11 @@ Runner addDemoScene(CLI::App &App) {
   writesFile(App.add_option("--cameras", A->Cameras,
                             "Write its views too (cameras.json)"),
              {".json"});
-  writesFile(App.add_option("--json", A->JsonFile,
-                            "Write what was made, for programs"),
+  writesFile(App.add_option("--json", A->JsonFile, "Write a report as JSON"),
              {".json"});
-  App.add_option(
-         "--gaussians", A->Gaussians,
-         fmt::format("About how many (default {})", demo::DefaultGaussians))
+  App.add_option("--gaussians", A->Gaussians,
+                 fmt::format("Approximate number of Gaussians (default {})",
+                             demo::DefaultGaussians))
       ->check(isBetween(demo::FewestGaussians, demo::MostGaussians));
   return [A](const DeviceOptions &) { return run(*A); };
 }

@@ -8,8 +8,8 @@ namespace vorion::splat {
 
 void addDeviceOption(CLI::App &App, std::string &Name) {
   App.add_option("--device", Name,
-                 "Part of the OpenCL device's name (default Vorion, else the "
-                 "first device)");
+                 "Substring of the OpenCL device's name (default Vorion, else "
+                 "the first device)");
 }
 
 void addKernelsOption(CLI::App &App, std::string &Folder) {

@@ -55,7 +55,7 @@ Diagnoses examineAll(const DeviceOptions &Options) {
     Add({examineSystemCache(systemKernelCacheFolder())});
   } else {
     Add({{DiagnosisState::Note, "kernel cache",
-          "POCL_KERNEL_CACHE turns it off, so every program compiles its own "
+          "disabled by POCL_KERNEL_CACHE, so every program compiles its own "
           "kernels again",
           "unset POCL_KERNEL_CACHE"}});
   }
@@ -74,7 +74,7 @@ std::string textReport(const Diagnoses &All) {
   for (const Diagnosis &F : All) {
     Text += fmt::format("{:<6} {:<13} {}\n", name(F.State), F.Subject, F.Text);
     if (!F.Mend.empty())
-      Text += fmt::format("{:<6} {:<13} mend: {}\n", "", "", F.Mend);
+      Text += fmt::format("{:<6} {:<13} fix: {}\n", "", "", F.Mend);
   }
   return Text;
 }
@@ -111,7 +111,7 @@ Expected<Success> run(const std::string &JsonFile,
   if (Faults != 0)
     return Error{"", fmt::format("{}, expected none", counted(Faults, "fault")),
                  ExitCode::GuestFailed};
-  printOut("all is well\n");
+  printOut("no problem found\n");
   return Success{};
 }
 
@@ -119,7 +119,7 @@ Expected<Success> run(const std::string &JsonFile,
 
 Runner addDoctor(CLI::App &App) {
   auto JsonFile = std::make_shared<std::string>();
-  writesFile(App.add_option("--json", *JsonFile, "Write the same for programs"),
+  writesFile(App.add_option("--json", *JsonFile, "Write the report as JSON"),
              {".json"});
   return [JsonFile](const DeviceOptions &Options) {
     return run(*JsonFile, Options);

@@ -109,7 +109,7 @@ AnswerTable tableOf(const EffectsFound &F) {
          fmt::format("{:.3f} to {:.3f}", M.Seconds.front(), M.Seconds.back()),
          IsBase ? "" : hostChange(M, Base),
          IsBase                ? M.Hash
-         : M.Hash == Base.Hash ? "the same bits"
+         : M.Hash == Base.Hash ? "bit-identical"
                                : M.Hash});
   }
   return T;
@@ -122,7 +122,7 @@ std::string list(const std::vector<std::string> &Names) {
 std::string textOf(const EffectsFound &F) {
   const AnswerTable T = tableOf(F);
   return fmt::format("{}\n\n{}{}\nauto compiles in: {}\nauto leaves out: {}\n"
-                     "(splat render --explain says what decides each)\n{}",
+                     "(splat render --explain shows the reason for each)\n{}",
                      verdictOf(F.Modes), toString(T), T.Note, list(F.Needed),
                      list(F.NotNeeded), F.Each ? "\n" + toString(*F.Each) : "");
 }
@@ -193,11 +193,11 @@ Expected<std::string> pageOf(const EffectsFound &F, const Image &Picture) {
   Chosen.Rows = {{"compiled in", list(F.Needed)},
                  {"left out", list(F.NotNeeded)}};
   return verdictPageOf(
-      {"What effects cost that a scene does not need",
+      {"Cost of effects that a scene does not need",
        verdictOf(F.Modes),
        {std::move(Bars)},
        {{"The picture",
-         "By all three, if they have the same bits.",
+         "Identical for all three selections unless the table says otherwise.",
          {{fmt::format("{}, view {}", printable(F.A.Scene.Path),
                        printable(F.View.Name)),
            std::move(*Png)}}}},
@@ -292,15 +292,16 @@ Runner addEffects(CLI::App &App) {
       ->allow_extra_args(false);
   writesFile(App.add_option("--json", A->Json, "Write all figures"), {".json"});
   writesFile(App.add_option("--html", A->Html,
-                            "Write them as a page, with the picture"),
+                            "Write a page with all figures and the picture"),
              {".html"});
-  App.add_option("--runs", A->Runs,
-                 "Runs without the clock, for the host's seconds (default 3)")
+  App.add_option(
+         "--runs", A->Runs,
+         "Number of runs without the timing model, for host times (default 3)")
       ->check(isBetween(1U, 1000U))
       ->option_text("N");
-  App.add_flag("--each", A->Each,
-               "Also measure what each effect costs, by rendering with and "
-               "without it");
+  App.add_flag(
+      "--each", A->Each,
+      "Also measure the cost of each effect by rendering with and without it");
   addDrawOptions(App, *A, /*Effects=*/false);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);

@@ -7,16 +7,15 @@ namespace vorion::splat {
 void addEnergyOptions(CLI::App &App, EnergyArguments &A,
                       const std::string &What) {
   App.add_flag("--energy", A.Energy,
-               "Say how much energy " + What +
-                   " takes on the machine, and how sure that is "
-                   "(docs/energy.md; turns --time on)");
-  takesFile(
-      App.add_option("--technology", A.Technology,
-                     "Energies and areas (turns --energy on; default: 16 nm)"),
-      {".json"});
-  App.add_option(
-         "--voltage", A.Volts,
-         "The chip's (turns --energy on; default: what the clock needs)")
+               "Report the modelled energy of " + What +
+                   " with its uncertainty (docs/energy.md; implies --time)");
+  takesFile(App.add_option("--technology", A.Technology,
+                           "Energies and areas of a process node (implies "
+                           "--energy; default: 16 nm)"),
+            {".json"});
+  App.add_option("--voltage", A.Volts,
+                 "Supply voltage (implies --energy; default: what the clock "
+                 "frequency needs)")
       ->option_text("V");
 }
 

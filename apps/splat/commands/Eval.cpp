@@ -49,13 +49,12 @@ Expected<Success> check(const EvalArguments &A) {
   for (const float V : A.Options.Background)
     if (!(V >= 0 && V <= 1))
       return Error{"",
-                   fmt::format("--background {}: expected values of 0 to 1, as "
-                               "photographs have",
+                   fmt::format("--background {}: expected values from 0 to 1, "
+                               "the range of photographs",
                                V),
                    ExitCode::Usage};
   if (A.Read.HoldOut == 0U && !A.All)
-    return Error{"",
-                 "--hold-out 0 leaves no view to judge, expected --all with it",
+    return Error{"", "--hold-out 0 leaves no view to evaluate, expected --all",
                  ExitCode::Usage};
   if (!A.Pictures.empty())
     if (auto Checked = checkPrefix("--pictures", A.Pictures); !Checked)
@@ -132,9 +131,7 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
     return Set.error();
   const std::vector<JudgedView> Views = judgedViews(*Set, A.All);
   if (Views.empty())
-    return Error{A.Capture,
-                 "no view is held out, expected one at least, or "
-                 "--all",
+    return Error{A.Capture, "no held-out view, expected at least one, or --all",
                  ExitCode::Usage};
   std::vector<Camera> Cameras;
   Cameras.reserve(Views.size());
@@ -188,35 +185,41 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
 Runner addEval(CLI::App &App) {
   auto A = std::make_shared<EvalArguments>();
   addSceneOptions(App, A->Scene);
-  takesFile(App.add_option("capture", A->Capture,
-                           "Photographs with poses, as `splat train` takes "
-                           "them"))
+  takesFile(
+      App.add_option(
+          "capture", A->Capture,
+          "Photographs with poses, in any format that `splat train` reads"))
       ->required();
-  App.add_flag("--all", A->All,
-               "Judge the views that training uses, too (default: those held "
-               "out)");
+  App.add_flag(
+      "--all", A->All,
+      "Evaluate the training views, too (default: only the held-out views)");
   App.add_flag(
       "--distorted",
       [A](std::int64_t) { A->Read.Pictures = LensOf::Photograph; },
-      "Draw through the photographs' lenses and judge by the photographs as "
-      "they are (default: by what training makes of them, without distortion)");
-  App.add_option("--downscale", A->Downscale,
-                 "Pictures so many times smaller, as in training (default 1)")
+      "Render with the lens distortion of the photographs and compare with the "
+      "original photographs (default: compare with undistorted photographs)");
+  App.add_option(
+         "--downscale", A->Downscale,
+         "Downsampling factor of the photographs, as in training (default 1)")
       ->check(isBetween(1, 64));
-  App.add_option("--exclude", A->Read.Exclude, "Leave out this picture")
+  App.add_option("--exclude", A->Read.Exclude,
+                 "Exclude this picture; may be repeated")
       ->allow_extra_args(false);
   addHoldOutOption(App, A->Read.HoldOut);
   addOutsideOption(App, A->Read.AllowOutside);
   addMasksOption(App, A->Read.Masks);
-  writesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});
-  writesFile(App.add_option("--csv", A->Csv, "Write a line a view"), {".csv"});
+  writesFile(App.add_option("--json", A->Json, "Write the scores as JSON"),
+             {".json"});
+  writesFile(App.add_option("--csv", A->Csv, "Write one line per view"),
+             {".csv"});
   writesFiles(
       App.add_option("--pictures", A->Pictures,
-                     "Write what each view shows beside its photograph: "
+                     "Write each rendered view and its photograph as "
                      "PREFIX.NAME.drawn.png and PREFIX.NAME.photo.png"));
-  writesFile(App.add_option("--html", A->Html,
-                            "Write a page of the same, with scores"),
-             {".html"});
+  writesFile(
+      App.add_option("--html", A->Html,
+                     "Write a page with these pictures and their scores"),
+      {".html"});
   addDrawOptions(App, *A);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);

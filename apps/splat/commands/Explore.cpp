@@ -282,8 +282,8 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
   Exploration E(A, *P);
   if (A.Machines < E.singles())
     printNote(
-        fmt::format("splat: --machines {}: the base and each change alone "
-                    "are always tried, {} machines\n",
+        fmt::format("splat: --machines {}: the base and each single change "
+                    "are always measured, {} machines\n",
                     A.Machines, E.singles()));
   return E.run(Given->ViewFiles);
 }
@@ -295,32 +295,31 @@ Runner addExplore(CLI::App &App) {
   addStudyOptions(App, A->Study, "trial",
                   "the scene's or the workload's name and -explore");
   App.add_flag("--print-space", A->PrintSpace,
-               "Print the space that is explored by default, and end");
+               "Print the default design space and exit");
   takesFile(App.add_option("--space", A->SpaceFile,
-                           "What machines may differ in, JSON (default: "
-                           "--print-space)"));
-  takesFile(App.add_option("--technology", A->Energy.Technology,
-                           "Energies and areas (default: 16 nm)"),
-            {".json"});
+                           "Design space, JSON (default: --print-space)"));
+  takesFile(
+      App.add_option("--technology", A->Energy.Technology,
+                     "Energies and areas of a process node (default: 16 nm)"),
+      {".json"});
   App.add_option("--voltage", A->Energy.Volts,
-                 "The chip's, of all machines (default: what each one's clock "
-                 "needs)")
+                 "Supply voltage of all machines (default: what each machine's "
+                 "clock frequency needs)")
       ->option_text("V");
-  App.add_option(
-         "--machines", A->Machines,
-         "Machines to try: the base, each change alone, and others drawn "
-         "at random (default 200)")
+  App.add_option("--machines", A->Machines,
+                 "Number of machines: the base, each single change, and others "
+                 "sampled at random (default 200)")
       ->check(isBetween(1U, 1000000U))
       ->option_text("N");
   App.add_option("--finalists", A->Finalists,
-                 "At least so many of the best by small views are judged on "
-                 "whole ones (default 50)")
+                 "Minimum number of machines that are best on small views and "
+                 "then measured on full views (default 50)")
       ->option_text("N");
   App.add_option("--checks", A->Checks,
-                 "So many drawn at random are judged on both, to compare their "
-                 "order (default 50)")
+                 "Number of random machines that are measured on both small "
+                 "and full views, to compare the rankings (default 50)")
       ->option_text("N");
-  App.add_option("--seed", A->Seed, "Of the random machines (default 1)")
+  App.add_option("--seed", A->Seed, "Seed of the random machines (default 1)")
       ->check(isBetween<uint64_t>(0, MostSeed))
       ->option_text("N");
   addWorkloadOptions(App, A->Tried);

@@ -83,10 +83,10 @@ Expected<Success> checkArguments(const std::vector<std::string> &Words,
   const char *What = !Does.has(Work::Iterations) ? "a picture"
                      : !Does.has(Work::Frames)   ? "an iteration"
                                                  : "a picture or an iteration";
-  return Error{"", fmt::format("{} is no option of how {} is computed, "
-                               "expected one of {}{}",
-                               Option, What, fmt::join(Known, ", "),
-                               didYouMean(Option, Known))};
+  return Error{
+      "", fmt::format(
+              "{} is not an option for computing {}, expected one of {}{}",
+              Option, What, fmt::join(Known, ", "), didYouMean(Option, Known))};
 }
 
 } // namespace

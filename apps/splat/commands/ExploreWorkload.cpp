@@ -29,8 +29,8 @@ void addSceneAndViews(CLI::App &App, SceneArguments &Scene,
                       CameraArguments &Cameras) {
   addSceneOptions(App, Scene);
   addCameraOptions(App, Cameras, /*Several=*/true);
-  takesView(
-      App.add_option("--views", Cameras.Views, "Views to draw (default: all)"))
+  takesView(App.add_option("--views", Cameras.Views,
+                           "Views to render (default: all)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
 }
@@ -257,15 +257,15 @@ void addWorkloadOptions(CLI::App &App, WorkloadArguments &A) {
   addSceneAndViews(App, A.Scene, A.Cameras);
   App.get_option("scene")->required(false);
   const std::vector<CLI::Option *> OfScene = optionsFrom(App, First);
-  CLI::Option *File = takesFile(
-      App.add_option("--workload", A.File,
-                     "Scenes and states of training in place of one scene, "
-                     "JSON (docs/explore.md)"),
-      {".json"});
+  CLI::Option *File =
+      takesFile(App.add_option("--workload", A.File,
+                               "Workload of several scenes and training states "
+                               "in place of one scene, JSON (docs/explore.md)"),
+                {".json"});
   for (CLI::Option *O : OfScene)
     File->excludes(O);
   App.add_option("--small-width", A.SmallWidth,
-                 "Width of small views, px (default 480)")
+                 "Width of small views in pixels (default 480)")
       ->check(isBetween(16, 16384))
       ->option_text("N");
 }

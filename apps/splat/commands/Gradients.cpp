@@ -55,7 +55,7 @@ Expected<std::vector<float>> arrayOf(const std::string &File, NpzFile &Arrays,
   if (const auto Bad = std::ranges::find_if_not(
           Values, [](float V) { return std::isfinite(V); });
       Bad != Values.end())
-    return Error{File, fmt::format("array {} holds a NaN or an infinity as "
+    return Error{File, fmt::format("array {} has a NaN or an infinity as "
                                    "element {}, expected finite values",
                                    Name, Bad - Values.begin())};
   return Values;
@@ -188,25 +188,28 @@ Runner addGradients(CLI::App &App) {
       App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
       {".json"})
       ->required();
-  takesView(App.add_option("--view", A->View, "img_name or id of the view"))
+  takesView(
+      App.add_option("--view", A->View, "Name (img_name) or id of the view"))
       ->required();
-  takesFile(App.add_option(
-                "--upstream", A->Upstream,
-                "The loss's gradients (.npz): in_v_render by the picture with "
-                "its background, in_v_alpha by alpha"),
-            {".npz"})
+  takesFile(
+      App.add_option(
+          "--upstream", A->Upstream,
+          "Gradients of the loss (.npz): in_v_render with respect to the "
+          "picture including its background, in_v_alpha with respect to alpha"),
+      {".npz"})
       ->required();
-  writesFile(
-      App.add_option("-o,--output", A->Output,
-                     "Gradients and hand-over sums (.npz), named as in the "
-                     "reference results (default: the scene's name and "
-                     "-gradients.npz, in this folder)"),
-      {".npz"});
+  writesFile(App.add_option(
+                 "-o,--output", A->Output,
+                 "Gradients and the rasterizer's partial sums (.npz), with the "
+                 "array names of the reference results (default: the scene's "
+                 "name with -gradients.npz, in the current folder)"),
+             {".npz"});
   writesFile(App.add_option("--json", A->Json,
-                            "Write what was done, and how much of it"),
+                            "Write a report with options, counters and times"),
              {".json"});
   App.add_flag("--time", A->Time,
-               "Say how long both passes take on the machine (docs/model.md)");
+               "Report the modelled time of the forward and backward pass "
+               "(docs/model.md)");
   addGradientOptions(App, A->Options, A->Backward);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);

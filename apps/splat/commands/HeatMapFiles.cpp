@@ -56,12 +56,12 @@ Expected<HeatMapFiles> HeatMapFiles::begin(std::string Prefix,
 Expected<DrawnTiles> HeatMapFiles::tiles() const {
   auto Drawn = readTileWork(File);
   if (!Region.empty() && (!Drawn || Drawn->Tiles.empty()))
-    return Error{"",
-                 fmt::format("no tiles: VORION_REGION={} counts no launch that "
-                             "blends, expected a region with the kernel "
-                             "rasterize",
-                             Region),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format("no tiles: VORION_REGION={} contains no launch that "
+                    "blends, expected a region with the kernel rasterize",
+                    Region),
+        ExitCode::Usage};
   if (!Drawn || Drawn->Tiles.empty())
     return Error{"",
                  "the device reports nothing about tiles, expected a Vorion "

@@ -86,10 +86,9 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
   Text += fmt::format(
       "axes         {} by {}; {}\n",
       Kind.Axes.empty() ? CustomaryAxes : Kind.Axes,
-      Kind.Axes.empty() ? "custom, the format's documentation says nothing"
+      Kind.Axes.empty() ? "by custom, not specified by the format"
                         : "the format's documentation",
-      A.Scene.Axes.empty() ? "read as the file has them"
-                           : "changed " + A.Scene.Axes + " as asked for");
+      A.Scene.Axes.empty() ? "not converted" : "changed " + A.Scene.Axes + "");
   const auto Box = [&](const char *Name, const std::array<double, 3> &Low,
                        const std::array<double, 3> &High) {
     Text +=
@@ -153,9 +152,8 @@ Expected<Success> run(const InfoArguments &A) {
 Runner addInfo(CLI::App &App) {
   auto A = std::make_shared<InfoArguments>();
   addSceneOptions(App, A->Scene);
-  writesFile(
-      App.add_option("--json", A->JsonFile, "Write the same for programs"),
-      {".json"});
+  writesFile(App.add_option("--json", A->JsonFile, "Write the report as JSON"),
+             {".json"});
   addOutsideOption(App, A->AllowOutside);
   return [A](const DeviceOptions &) { return run(*A); };
 }

@@ -13,17 +13,17 @@ void addLayerOptions(CLI::App &App, LayerFiles &F) {
   const std::vector<std::string> Pictures(pictureEndings().begin(),
                                           pictureEndings().end());
   writesFile(App.add_option("--depth", F.Depth,
-                            "Write each pixel's depth, and its alpha (.npz, "
-                            ".exr; .pfm: the first alone)"),
+                            "Write each pixel's depth and alpha (.npz, .exr) "
+                            "or its depth only (.pfm)"),
              {".npz", ".pfm", ".exr"});
   addChoice(App, "--depth-as", F.As,
             {DepthAs::Accumulated, DepthAs::Expected, DepthAs::Median},
-            "Depth is the sum of weights times depths, that over the sum of "
-            "weights, or where half of the light is left");
+            "Definition of depth: the weighted sum, the weighted mean, or the "
+            "depth at which transmittance falls to one half");
   App.get_option("--depth-as")->needs("--depth");
   writesFile(App.add_option("--normals", F.Normals,
-                            "Write each pixel's sum of weights times normals "
-                            "(a picture; of 8 bits, directions as colours)"),
+                            "Write each pixel's weighted sum of normals (a "
+                            "picture; with 8 bits, encoded as colours)"),
              Pictures);
   writesFile(App.add_option("--opacity", F.Opacity,
                             "Write each pixel's opacity (a picture)"),
@@ -32,8 +32,9 @@ void addLayerOptions(CLI::App &App, LayerFiles &F) {
                             "Write the Gaussians with the largest weights of "
                             "each pixel (.npz: index, weight, count)"),
              {".npz"});
-  App.add_option("--top", F.Top,
-                 fmt::format("So many of them a pixel (default {})", F.Top))
+  App.add_option(
+         "--top", F.Top,
+         fmt::format("Number of contributors per pixel (default {})", F.Top))
       ->option_text("N")
       ->needs("--contributors")
       ->check(isBetween(1U, MaxTop));
@@ -52,7 +53,7 @@ Expected<Success> checkLayers(const LayerFiles &F, const RenderOptions &O,
     if (!IsOne && !File.empty())
       return Error{
           "",
-          fmt::format("{} writes one picture's, expected one --view", Option),
+          fmt::format("{} applies to one picture, expected one --view", Option),
           ExitCode::Usage};
   return F.needLists()
              ? checkPixelLists(O, F.Contributors.empty() ? "--depth-as median"

@@ -79,7 +79,7 @@ Expected<Success> checkEnding(std::string_view Option, const std::string &File,
                                                     : ", ",
                           Endings[I]);
   return badName(Option, File,
-                 fmt::format("unknown kind of file, expected {}{}", Listed,
+                 fmt::format("unknown file extension, expected {}{}", Listed,
                              std::ranges::any_of(Endings, Ends)
                                  ? ""
                                  : didYouMean(endingOf(File), Endings)));
@@ -113,8 +113,9 @@ Expected<Success> checkPrefix(std::string_view Option,
                               const std::string &Prefix) {
   if (promised(Prefix).empty())
     return Success{};
-  return badName(Option, Prefix,
-                 "begins several names, expected one without an ending");
+  return badName(
+      Option, Prefix,
+      "is a prefix of several file names, expected one without an extension");
 }
 
 } // namespace vorion::splat

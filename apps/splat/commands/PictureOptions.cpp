@@ -18,17 +18,16 @@ namespace {
 /// What is given up for time or area, on either path.
 void addDatapathOptions(CLI::App &App, RenderOptions &O) {
   addChoice(App, "--exp", O.Exponential, ExpUnits,
-            "Exponential unit; tables are the rasterizer's");
+            "Exponential unit; tables need the rasterizer");
   addSize(App, "--alpha-cutoff", O.AlphaCutoff, {1, 2, 4, 8},
-          "Smallest alpha that is blended, in 1/255");
+          "Minimum alpha of a blended Gaussian, in units of 1/255");
   App.add_option("--depth-bits", O.DepthBits,
-                 "Leading bits of the depths that decide the order "
-                 "(default 32)")
+                 "Number of leading depth bits in the sort key (default 32)")
       ->option_text("1..32")
       ->check(isBetween(1U, 32U));
-  App.add_option("--sh-degree", O.ShLimit,
-                 "Leave out bands of spherical harmonics above this "
-                 "(default 3)")
+  App.add_option(
+         "--sh-degree", O.ShLimit,
+         "Maximum degree of spherical harmonics that are evaluated (default 3)")
       ->option_text("0..3")
       ->check(isBetween(0, 3));
 }
@@ -36,21 +35,23 @@ void addDatapathOptions(CLI::App &App, RenderOptions &O) {
 void addRasterOptions(CLI::App &App, DrawArguments &A) {
   RenderOptions &O = A.Options;
   addChoice(App, "--blend", O.Arithmetic, BlendUnits,
-            "Multiplications of the rasterizer's blend stage; sums are fp32");
+            "Precision of the multiplications in the rasterizer's blend stage; "
+            "sums are fp32");
   addSize(App, "--tile", O.RasterTile, {16, 32, 64},
-          "Side of a tile of the rasterizer's path");
+          "Tile size in pixels on the raster path");
   App.add_option("--ztiles", O.ZTiles,
-                 "Parts of each tile's list that are blended apart and merged "
-                 "(default 1)")
+                 "Number of depth segments of a tile's list that are blended "
+                 "independently and then merged (default 1)")
       ->option_text(fmt::format("1..{}", MaxZTiles))
       ->check(isBetween(1U, MaxZTiles));
-  App.add_option("--pixel-unit", A.PixelUnit,
-                 "When a list goes on in the pixel unit: so many entries are "
-                 "left, a share of the pixels is full, or the last part of the "
-                 "list is reached (default off)")
+  App.add_option(
+         "--pixel-unit", A.PixelUnit,
+         "Condition for handing the rest of a tile's list to the pixel unit: N "
+         "entries are left, a fraction P of the pixels is saturated, or the "
+         "last A/B of the list is reached (default off)")
       ->option_text("off|count:N|occluded:P|last:A/B[,...]");
   App.add_flag("--skip-saturated", O.SkipSaturated,
-               "The rasterizer gives no lane slot to saturated pixels");
+               "Do not spend lane slots of the rasterizer on saturated pixels");
 }
 
 } // namespace
@@ -60,16 +61,19 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
   addChoice(
       App, "--support", O.Reach,
       {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
-      "Pixels that a Gaussian may reach");
-  addPathOption(App, O.Blending, "Who blends: the rasterizer or the cores");
-  addBackgroundOption(App, O.Background,
-                      "Colour r,g,b, white is 1,1,1 (default 0,0,0)");
+      "Rule for the pixels that a Gaussian covers");
+  addPathOption(App, O.Blending,
+                "Unit that blends: the rasterizer or the cores");
+  addBackgroundOption(
+      App, O.Background,
+      "Background colour, e.g. 1,1,1 for white (default 0,0,0)");
   App.add_option("--near", O.Near,
-                 "Least depth that is drawn (default 0.2 by INRIA's rules, "
-                 "0.01 by gsplat's)")
+                 "Depth of the near plane (default: 0.2 with INRIA's rules, "
+                 "0.01 with gsplat's)")
       ->option_text("Z");
-  App.add_option("--cutoff", O.Cutoff,
-                 "Transmittance at which a pixel is full (default 0.0001)");
+  App.add_option(
+      "--cutoff", O.Cutoff,
+      "Transmittance below which a pixel is saturated (default 0.0001)");
   addProjectionOption(App, O.Through);
 }
 
@@ -78,8 +82,8 @@ Expected<Success> checkSimtOptions(Path Blending, unsigned SimtTile,
   const RenderOptions Default;
   if (Blending == Path::Raster &&
       (SimtTile != Default.SimtTile || SimtGroup != Default.SimtGroup))
-    return usage("--simt-tile and --simt-group are the cores', expected --path "
-                 "simt with them");
+    return usage("--simt-tile and --simt-group apply to the cores only, "
+                 "expected --path simt");
   return Success{};
 }
 
@@ -98,8 +102,8 @@ Expected<Success> checkPictureOptions(const RenderOptions &O) {
   if (!(O.Cutoff >= 0 && O.Cutoff < 1))
     return usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
   if (O.Blending == Path::Raster && O.Reach == Support::Official16)
-    return usage("--support official16 has tiles of 16x16 pixels, expected "
-                 "--path simt with it");
+    return usage(
+        "--support official16 has tiles of 16x16 pixels, expected --path simt");
   return Success{};
 }
 
@@ -110,22 +114,21 @@ void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects) {
   addSimtOptions(App, A.Options.SimtTile, A.Options.SimtGroup, {8, 16, 32, 64});
   addChoice(App, "--order", A.Options.Order,
             {PixelOrder::Depth, PixelOrder::Ray},
-            "Pixels blend by the depths of centres or by those along their own "
-            "rays (docs/numerics.md)");
+            "Blend order: by the depths of the Gaussians' centres, or per "
+            "pixel by the depths along its ray (docs/numerics.md)");
   App.add_flag("--cull-blocks", A.Options.CullBlocks,
-               "Blocks of 16 Gaussians of which a pinhole sees none are left "
-               "out whole; changes no bit (docs/ideas.md)");
+               "Cull blocks of 16 Gaussians that are outside a pinhole "
+               "camera's frustum; results are bit-identical (docs/ideas.md)");
   addSize(App, "--ray-window", A.Options.RayWindow, {4, 8, 16},
-          "Gaussians that a pixel of --order ray finds each time that it "
-          "goes through its list; changes no bit");
+          "Number of Gaussians that a pixel of --order ray finds in each pass "
+          "over its list; results are bit-identical");
   if (!Effects)
     return;
   takesSomeOf(
-      App.add_option(
-          "--effects", A.Effects,
-          "Effects compiled into the kernels: what the scene calls for, "
-          "all, all behind run-time flags, or those named (default "
-          "auto; docs/effects.md)"),
+      App.add_option("--effects", A.Effects,
+                     "Effects compiled into the kernels: those that the scene "
+                     "needs, all, all under run-time flags, or the named ones "
+                     "(default auto; docs/effects.md)"),
       effectChoices())
       ->option_text("auto|all|flags|NAME,...");
 }
@@ -146,27 +149,26 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
   if (auto Checked = checkPictureOptions(O); !Checked)
     return Checked;
   if (O.Blending == Path::Simt && !isOnCores(O.Exponential))
-    return usage(fmt::format("--exp {} is the rasterizer's, expected --path "
-                             "raster with it",
-                             name(O.Exponential)));
+    return usage(fmt::format(
+        "--exp {} is a unit of the rasterizer, expected --path raster",
+        name(O.Exponential)));
   if (O.Blending == Path::Simt &&
       (O.ZTiles != 1 || O.PixelUnit.any() || O.SkipSaturated ||
        O.Arithmetic != BlendUnit::Fp32 ||
        O.RasterTile != RenderOptions().RasterTile))
     return usage("--ztiles, --pixel-unit, --skip-saturated, --blend and --tile "
-                 "are the rasterizer's, expected --path raster with them");
+                 "apply to the rasterizer only, expected --path raster");
   if (O.CullBlocks && O.Through == Spread::Unscented)
     return usage("--cull-blocks bounds footprints by the Jacobian, expected "
-                 "--projection jacobian with it");
+                 "--projection jacobian");
   if (O.Blending == Path::Raster && O.Order == PixelOrder::Ray)
-    return usage("--order ray is the cores', because the rasterizer blends by "
-                 "its list, expected --path simt with it");
+    return usage("--order ray needs the cores, because the rasterizer blends "
+                 "in list order, expected --path simt");
   if (O.Order == PixelOrder::Ray && O.DepthBits != RenderOptions().DepthBits)
-    return usage("--depth-bits rounds the depths of centres, expected --order "
-                 "depth with it");
-  if (O.Order == PixelOrder::Depth && O.RayWindow != RenderOptions().RayWindow)
     return usage(
-        "--ray-window belongs to --order ray, expected --order ray with it");
+        "--depth-bits rounds the depths of centres, expected --order depth");
+  if (O.Order == PixelOrder::Depth && O.RayWindow != RenderOptions().RayWindow)
+    return usage("--ray-window applies to rays only, expected --order ray");
   if (O.Reach == Support::Official16 && O.SimtTile != 16)
     return usage(fmt::format("--simt-tile {}: --support official16 has tiles "
                              "of 16x16 pixels, expected 16",
@@ -177,8 +179,8 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
 void warnOfMissing(const EffectPlan &P, const std::string &Asked) {
   for (const Effect *E : P.missing())
     printDiagnostic("splat", "warning", "",
-                    fmt::format("--effects {} leaves out {}, which the scene "
-                                "calls for ({}): the picture differs",
+                    fmt::format("--effects {} excludes {}, which the scene "
+                                "needs ({}): the picture differs",
                                 Asked, E->Name, P.of(*E).Detected.Figure));
 }
 
@@ -195,7 +197,7 @@ void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
            if (!Read)
              throw CLI::ValidationError(
                  "--background",
-                 fmt::format("{}, expected three numbers, as 1,0.5,0", Text));
+                 fmt::format("{}, expected three numbers, e.g. 1,0.5,0", Text));
          },
          Help)
       ->option_text("R,G,B");
@@ -203,13 +205,14 @@ void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
 
 void addRulesOption(CLI::App &App, Rules &Convention) {
   addChoice(App, "--rules", Convention, {Rules::Inria, Rules::Gsplat},
-            "Convention to follow");
+            "Rendering convention");
 }
 
 void addProjectionOption(CLI::App &App, Spread &Through) {
-  addChoice(App, "--projection", Through, {Spread::Jacobian, Spread::Unscented},
-            "Gaussians go through the camera by its Jacobian at the mean or as "
-            "seven points (docs/cameras.md)");
+  addChoice(
+      App, "--projection", Through, {Spread::Jacobian, Spread::Unscented},
+      "Projection of covariances: by the camera's Jacobian at the mean, or by "
+      "the unscented transform with seven sigma points (docs/cameras.md)");
 }
 
 void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {
@@ -218,21 +221,22 @@ void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {
 
 void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
                     const std::vector<unsigned> &Tiles) {
-  addSize(App, "--simt-tile", Tile, Tiles, "Side of a tile of the cores' path");
+  addSize(App, "--simt-tile", Tile, Tiles,
+          "Tile size in pixels on the simt path");
   addSize(App, "--simt-group", Group, {16, 64, 256},
-          "Work-items that draw a tile on the cores' path");
+          "Work-items per tile on the simt path");
 }
 
 void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
   addChoice(App, "--reciprocal", B.Unit, Reciprocals,
-            "The rasterizer's unit for 1/(1 - alpha)");
+            "Unit of the rasterizer for 1/(1 - alpha)");
   addChoice(App, "--sum", B.Order, {GatherOrder::Tree, GatherOrder::Rows},
-            "How the rasterizer's gather adds up rows");
+            "Order in which the rasterizer's gather stage sums rows");
   addChoice(App, "--simt-sums", B.Pixels,
             {SimtSums::Ordered, SimtSums::Atomics, SimtSums::Warp},
-            "How the cores' way back adds up pixels: in a fixed order, by "
-            "atomics as INRIA's program does, or first those of a warp and "
-            "then by atomics");
+            "Summation over pixels in the backward pass on the cores: in a "
+            "fixed order, by atomics as in INRIA's code, or by a reduction in "
+            "each warp and then atomics");
 }
 
 Expected<Success> checkBackwardOptions(const BackwardOptions &B,
@@ -240,10 +244,10 @@ Expected<Success> checkBackwardOptions(const BackwardOptions &B,
   const BackwardOptions Default;
   if (Blending == Path::Simt &&
       (B.Unit != Default.Unit || B.Order != Default.Order))
-    return usage("--reciprocal and --sum are the rasterizer's, expected --path "
-                 "raster with them");
+    return usage("--reciprocal and --sum apply to the rasterizer only, "
+                 "expected --path raster");
   if (Blending == Path::Raster && B.Pixels != Default.Pixels)
-    return usage("--simt-sums is the cores', expected --path simt with it");
+    return usage("--simt-sums applies to the cores only, expected --path simt");
   return Success{};
 }
 

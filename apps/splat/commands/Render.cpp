@@ -80,41 +80,42 @@ Expected<Success> check(const RenderArguments &A) {
   const auto Ends = [&A](std::string_view E) { return A.Output.ends_with(E); };
   if (A.Format.Quality && !Ends(".jpg") && !Ends(".jpeg") && !Ends(".webp"))
     return Usage(
-        "--quality is of .jpg and .webp, expected -o with one of them");
+        "--quality applies to .jpg and .webp, expected -o with one of them");
   if (A.Format.Half && !Ends(".exr"))
-    return Usage("--exr-half is of .exr, expected -o with it");
+    return Usage("--exr-half applies to .exr, expected -o with this extension");
   if (auto Checked = checkDrawOptions(O); !Checked)
     return Checked;
   if (auto Checked = checkLayers(A.Layers, O, isOne(A)); !Checked)
     return Checked;
   if (A.Overlap && O.Blending == Path::Simt)
-    return Usage("--overlap is for cores beside rasterizers, expected --path "
-                 "raster with it");
+    return Usage("--overlap runs cores and rasterizers concurrently, expected "
+                 "--path raster");
   if (O.Deal == Dealing::LastFrame &&
       (O.Blending == Path::Simt || O.ZTiles != 1 || O.PixelUnit.any()))
-    return Usage("--deal last-frame is for tiles that a rasterizer draws with "
-                 "one command, expected --path raster, --ztiles 1 and "
-                 "--pixel-unit off with it");
+    return Usage(
+        "--deal last-frame needs tiles that a rasterizer blends with one "
+        "command, expected --path raster, --ztiles 1 and --pixel-unit off");
   if (A.Overlap && isOne(A))
-    return Usage("--overlap is for several pictures, expected --view all or "
+    return Usage("--overlap needs several pictures, expected --view all or "
                  "several --view");
   if (!isOne(A) && !A.Pairs.empty())
-    return Usage("--dump-pairs writes one picture's, expected one --view");
+    return Usage("--dump-pairs applies to one picture, expected one --view");
   if (!isOne(A) && !A.Html.empty())
-    return Usage("--html shows one picture, expected one --view");
+    return Usage("--html applies to one picture, expected one --view");
   if (!A.HeatMap.empty()) {
     if (auto Checked = checkPrefix("--heat-map", A.HeatMap); !Checked)
       return Checked;
     if (O.Blending == Path::Simt)
-      return Usage("--heat-map shows the rasterizers' work, expected --path "
-                   "raster with it");
+      return Usage(
+          "--heat-map shows the work of rasterizers, expected --path raster");
     if (!isOne(A) || blendsAgain(A) || A.Explain == "measure")
-      return Usage("--heat-map shows one blend of one view, expected one "
-                   "--view, and neither --depth, --normals nor "
-                   "--explain=measure");
+      return Usage(
+          "--heat-map applies to one blending pass of one view, expected one "
+          "--view, and neither --depth, --normals nor --explain=measure");
   }
   if (!isOne(A) && A.Explain == "measure")
-    return Usage("--explain=measure renders one picture, expected one --view");
+    return Usage(
+        "--explain=measure applies to one picture, expected one --view");
   // A render may take minutes: find out now whether it can be kept.
   std::vector<NamedFile> Outputs = HeatMapFiles::outputs(A.HeatMap);
   Outputs.insert(Outputs.end(), {{"-o", isOne(A) ? A.Output : ""},
@@ -137,9 +138,8 @@ void hintAtNear(const RenderOptions &O, const ViewFacts &F) {
   if (!O.Near && 2 * F.BeforeNear > F.InView)
     printDiagnostic(
         "splat", "note", "",
-        fmt::format("{} of {} Gaussians in front of the camera are not drawn, "
-                    "because they are nearer than {:g}: --near draws from a "
-                    "smaller depth on",
+        fmt::format("{} of {} Gaussians in front of the camera are culled by "
+                    "the near plane at depth {:g}: --near sets a smaller depth",
                     F.BeforeNear, F.InView, O.nearLimit()));
 }
 
@@ -164,8 +164,8 @@ void fallBack(const RenderArguments &A, const Launcher &L,
   RenderPlan Cheaper = cheaperFirstFrame(L, Plan, In);
   if (Cheaper.Programs == Plan.Programs)
     return;
-  printOut("effects: by run-time flags, whose programs are compiled "
-           "already\n");
+  printOut("effects: by run-time flags, because those programs are already "
+           "compiled\n");
   Plan = std::move(Cheaper);
 }
 
@@ -220,12 +220,11 @@ Expected<Success> checkWholeTime(const RenderArguments &A, const PictureJob &J,
   const std::string Region = J.Launch.device().options().text("VORION_REGION");
   if (!wantsTime(A) || Region.empty() || frameTime(Stages))
     return Success{};
-  const std::string What =
-      fmt::format("VORION_REGION={} counts a part of the launches alone",
-                  printable(Region));
+  const std::string What = fmt::format(
+      "VORION_REGION={} times only a part of the launches", printable(Region));
   if (!A.Html.empty())
     return Error{A.Html,
-                 "no page: " + What + ", expected all those of the picture",
+                 "no page: " + What + ", expected all launches of the picture",
                  ExitCode::Usage};
   printDiagnostic("splat", "note", "",
                   What + ": there is no time or energy of a whole picture");
@@ -268,8 +267,8 @@ Expected<Success> claimPictures(const RenderArguments &A,
     if (const auto [File, IsNew] = Files.insert(pictureFile(A.Output, C));
         !IsNew)
       return Error{A.Cameras.File,
-                   fmt::format("two of the views would be {}, expected views "
-                               "of different names",
+                   fmt::format("two of the views would be written to {}, "
+                               "expected views with different names",
                                *File),
                    ExitCode::Usage};
     else
@@ -357,10 +356,11 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   RenderPlan Plan = requestedPlan(A, Inputs);
   if (Map && Plan.Effects.done(effects::Windows)) {
     if (!A.HeatMap.empty())
-      return Error{"",
-                   "--heat-map shows tiles by their places in the picture, "
-                   "which windows do not have: expected a narrower one",
-                   ExitCode::Usage};
+      return Error{
+          "",
+          "--heat-map needs one tile grid for the picture, which a picture in "
+          "windows does not have: expected a narrower picture",
+          ExitCode::Usage};
     Map.reset();
   }
 
@@ -419,62 +419,66 @@ Runner addRender(CLI::App &App) {
   auto A = std::make_shared<RenderArguments>();
   addSceneOptions(App, A->Scene);
   addCameraOptions(App, A->Cameras, /*Several=*/true);
-  takesView(App.add_option(
-                "--view", A->Cameras.Views,
-                "Name or number of the view (default: the first); several "
-                "times, or \"all\", for several pictures, whose files then "
-                "have the view's name in front of their ending"),
-            {"all"})
+  takesView(
+      App.add_option("--view", A->Cameras.Views,
+                     "Name or number of a view (default: the first); may be "
+                     "repeated, or \"all\". The files of several pictures have "
+                     "the view's name before the extension"),
+      {"all"})
       ->allow_extra_args(false);
   writesFile(App.add_option("--write-cameras", A->CamerasOut,
-                            "Write the views that are drawn, as cameras.json"),
+                            "Write the rendered views as cameras.json"),
              {".json"});
   App.add_flag("--overlap", A->Overlap,
-               "Of several pictures, prepare one while another is blended");
+               "With several pictures, overlap the preparation of one with the "
+               "blending of another");
   addChoice(App, "--deal", A->Options.Deal,
             {Dealing::Lists, Dealing::LastFrame},
-            "Tiles go to the rasterizers by the lengths of their lists or, of "
-            "several pictures, by their work in the one before "
-            "(docs/ideas.md)");
+            "Distribution of tiles to the rasterizers: by the lengths of their "
+            "lists or, with several pictures, by their cost in the previous "
+            "one (docs/ideas.md)");
   writesFile(App.add_option("-o,--output", A->Output,
-                            "Picture: .png, .jpg or .webp of 8 bits, or .exr, "
-                            ".pfm or .npz for floats (default: the scene's "
-                            "name and .png, in this folder)"),
+                            "Picture file: .png, .jpg or .webp with 8 bits, or "
+                            ".exr, .pfm or .npz with floats (default: the "
+                            "scene's name with .png, in the current folder)"),
              {pictureEndings().begin(), pictureEndings().end()});
-  App.add_option("--quality", A->Format.Quality,
-                 "Of a .jpg (default 95) or .webp (default: every byte kept)")
+  App.add_option(
+         "--quality", A->Format.Quality,
+         "Quality of a .jpg (default 95) or a lossy .webp (default: lossless)")
       ->check(isBetween(1, 100));
   App.add_flag("--exr-half", A->Format.Half,
-               "An .exr has floats of 16 bits (default: of 32)");
+               "Write .exr with 16-bit floats (default: 32-bit)");
   writesFile(App.add_option("--json", A->Json,
-                            "Write what was done, and how much of it"),
+                            "Write a report with options, counters and times"),
              {".json"});
   writesFile(
-      App.add_option("--html", A->Html,
-                     "Write a page that shows where the time of the frame goes "
-                     "(turns --time on)"),
+      App.add_option(
+          "--html", A->Html,
+          "Write a page with the breakdown of the frame time (implies --time)"),
       {".html"});
   addDrawOptions(App, *A);
   addDeviceOption(App, A->Device);
-  App.add_flag("--explain{plan}", A->Explain,
-               "Say of each effect whether it is on, and what decided; with "
-               "=measure also what it costs, by rendering with and without")
+  App.add_flag(
+         "--explain{plan}", A->Explain,
+         "Report for each effect whether it is compiled in, and why; with "
+         "=measure, also measure its cost by rendering with and without it")
       ->option_text("[=measure]")
       ->check(isOneOf({"plan", "measure"}));
   App.add_flag("--time", A->Time,
-               "Say how long the frame takes on the machine (docs/model.md)");
+               "Report the modelled frame time (docs/model.md)");
   App.add_option("--clock", A->ClockMhz,
-                 "The same at this clock (default: the machine's, 530)")
+                 "Clock frequency of the timing model (implies --time; "
+                 "default: the machine's, 530)")
       ->option_text("MHZ")
       ->check(isBetween(1U, MostClockMhz));
   addEnergyOptions(App, A->Energy, "the frame");
   App.add_flag("--numerics{on}", A->Numerics,
-               "Say where fp32 parts from double, by source line and stage of "
-               "the rasterizer (docs/debugging.md)")
+               "Report where fp32 results deviate from double precision, by "
+               "source line and rasterizer stage (docs/debugging.md)")
       ->option_text("[=SETTING,...]");
   writesFiles(
       App.add_option("--heat-map", A->HeatMap,
-                     "Show where the rasterizers' work is, tile by tile: "
+                     "Write maps of the rasterizers' work per tile: "
                      "PREFIX.list.png, .blends, .cycles and .saturation, and "
                      "PREFIX.json (docs/debugging.md)"));
   addLayerOptions(App, A->Layers);

@@ -58,7 +58,7 @@ Expected<Json> readResult(const std::string &File) {
                            {"folder", JsonShape::text()},
                            {"environment", JsonShape::object({})}})}});
   if (auto Fits = Wanted.check(*Result, File); !Fits)
-    return Error{File, "no report of splat: " + Fits.error().What};
+    return Error{File, "not a report of splat:  " + Fits.error().What};
   return Result;
 }
 
@@ -183,8 +183,8 @@ Expected<Success> takeEnvironment(const ReplayArguments &A,
       unsetenv(Name.c_str());
   for (const auto &[Name, Value] : Program["environment"].items()) {
     if (!isRecordedVariable(Name) || !Value.is_string())
-      return wrong(A, fmt::format("program.environment.{} is not known, "
-                                  "expected what splat recorded",
+      return wrong(A, fmt::format("program.environment.{} is unknown, expected "
+                                  "a variable that splat records",
                                   Name));
     setenv(Name.c_str(), Value.get<std::string>().c_str(), 1);
   }
@@ -248,13 +248,14 @@ Expected<Success> replay(const ReplayArguments &A,
   if (std::ranges::none_of(Words, [](const std::string &Word) {
         return Word.starts_with("--json");
       }))
-    return wrong(A, "was made without --json, expected a report that can be "
-                    "made again");
+    return wrong(
+        A,
+        "was written without --json, expected a report that can be repeated");
 
   const CLI::App *Command = calledCommand(*A.Splat, Words);
   if (!Command)
-    return wrong(A, "program.arguments call no subcommand, expected what splat "
-                    "recorded");
+    return wrong(A, "program.arguments have no subcommand, expected a command "
+                    "line that splat recorded");
   const auto Temporary = TemporaryFolder::make("splat-replay");
   if (!Temporary)
     return Temporary.error();
@@ -262,9 +263,11 @@ Expected<Success> replay(const ReplayArguments &A,
       A.Folder.empty() ? Program["folder"].get<std::string>() : A.Folder;
   std::filesystem::current_path(Folder, Failed);
   if (Failed)
-    return Error{Folder, fmt::format("{}, expected the folder in which the "
-                                     "result was made (--folder)",
-                                     Failed.message())};
+    return Error{
+        Folder,
+        fmt::format(
+            "{}, expected the folder in which the command ran (--folder)",
+            Failed.message())};
   std::vector<std::string> Changed;
   findChanged(*Result, Changed);
   if (!Changed.empty()) {
@@ -273,9 +276,9 @@ Expected<Success> replay(const ReplayArguments &A,
     std::string Named;
     for (const std::string &File : Changed)
       Named += (Named.empty() ? "" : ", ") + printable(File);
-    return wrong(A, fmt::format("inputs have changed since: {}, expected them "
-                                "as they were",
-                                Named));
+    return wrong(
+        A, fmt::format("inputs have changed: {}, expected the recorded hashes",
+                       Named));
   }
   if (auto Claimed =
           claimOutputs({{"--json", A.JsonFile}}, inputsOf(*Result).named());
@@ -308,12 +311,12 @@ Expected<Success> replay(const ReplayArguments &A,
     printOut("... and {} more\n", D.Differing - D.First.size());
   std::fflush(stdout); // before the error that counts them
   if (D.Differing == 0) {
-    printOut("{}: the same bits again ({} compared)\n", escaped(A.Result),
+    printOut("{}: bit-identical ({} compared)\n", escaped(A.Result),
              counted(D.Compared, "value"));
     return Success{};
   }
   return Error{A.Result,
-               fmt::format("{} of {} differ, expected the same bits",
+               fmt::format("{} of {} differ, expected bit-identical results",
                            D.Differing, counted(D.Compared, "value")),
                ExitCode::GuestFailed};
 }
@@ -323,17 +326,18 @@ Expected<Success> replay(const ReplayArguments &A,
 Runner addReplay(CLI::App &App) {
   auto A = std::make_shared<ReplayArguments>();
   A->Splat = App.get_parent();
-  takesFile(App.add_option("result", A->Result,
-                           "What --json wrote, of any command but "
-                           "accuracy, explore and doctor"),
-            {".json"})
+  takesFile(
+      App.add_option(
+          "result", A->Result,
+          "Report (--json) of any command except accuracy, explore and doctor"),
+      {".json"})
       ->required();
   takesFolder(App.add_option("--folder", A->Folder,
-                             "Where names of files are looked up (default: "
-                             "where the result was made)"));
-  writesFile(App.add_option("--json", A->JsonFile,
-                            "Write whether the bits agree, for programs"),
-             {".json"});
+                             "Folder of relative file names (default: the "
+                             "folder in which the command ran)"));
+  writesFile(
+      App.add_option("--json", A->JsonFile, "Write the comparison as JSON"),
+      {".json"});
   return [A](const DeviceOptions &Machine) {
     // The folder changes before it is written.
     std::error_code Failed;

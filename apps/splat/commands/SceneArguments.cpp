@@ -27,27 +27,27 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
             Endings)
       ->required();
   App.add_option("--axes", A.Axes,
-                 "Mirror the scene between conventions, as rub:rdf (default: "
-                 "as the file has it)")
+                 "Convert the scene's coordinate axes between two conventions, "
+                 "e.g. rub:rdf (default: no conversion)")
       ->option_text("FROM:TO");
   App.add_option("--lod", A.Options.LevelOfDetail,
                  "Level of detail of a streamed scene (default 0, the finest)")
       ->check(isBetween(0, 1000));
   App.add_flag("--drop-nonfinite", A.Options.DropNonFinite,
-               "Leave out Gaussians with a NaN or an infinity, and count them "
-               "(default: they are an error)");
+               "Drop Gaussians with a NaN or an infinity, and report their "
+               "number (default: they are an error)");
   std::optional<bool> &Antialiased = A.Options.Drawn.Antialiased;
   CLI::Option *Yes = App.add_flag_callback(
       "--antialiased", [&Antialiased] { Antialiased = true; },
-      "Compensate opacity for the dilation (default: as the scene's file "
-      "says; without a word in it, do not)");
+      "Compensate opacities for the dilation (default: as recorded in the "
+      "scene's file, else off)");
   App.add_flag_callback(
          "--no-antialiased", [&Antialiased] { Antialiased = false; },
-         "Do not, whatever the file says")
+         "Do not compensate opacities, whatever the scene's file records")
       ->excludes(Yes);
   App.add_option("--dilation", A.Options.Drawn.Dilation,
-                 "Added to both variances on the picture (default: as the "
-                 "scene's file says, or 0.3)")
+                 "Variance added to both axes of a projected Gaussian "
+                 "(default: as recorded in the scene's file, else 0.3)")
       ->option_text("PX2");
 }
 
@@ -90,7 +90,7 @@ Expected<SceneFile> loadScene(const SceneArguments &A,
     printDiagnostic(
         "splat", "warning", A.Path,
         fmt::format(
-            "skips properties that no effect here reads: {}{}",
+            "ignores properties that no effect reads: {}{}",
             fmt::join(Names, ", "),
             Named == File->Skipped.size()
                 ? ""
@@ -99,8 +99,7 @@ Expected<SceneFile> loadScene(const SceneArguments &A,
   if (File->Dropped > 0)
     printDiagnostic(
         "splat", "warning", A.Path,
-        fmt::format("leaves out {} of {} Gaussians, which hold a NaN or an "
-                    "infinity",
+        fmt::format("drops {} of {} Gaussians, which have a NaN or an infinity",
                     File->Dropped, File->Dropped + File->Gaussians.size()));
   return File;
 }

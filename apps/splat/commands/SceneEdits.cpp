@@ -27,14 +27,14 @@ Expected<Success> check(const SceneEdits &E) {
   if (!E.Box.empty())
     for (std::size_t A = 0; A < 3; ++A)
       if (!(E.Box[A] < E.Box[A + 3]))
-        return usage(fmt::format("--crop-box: {} to {} is no length, expected "
-                                 "x0,y0,z0,x1,y1,z1 with each first one below "
-                                 "its second",
-                                 E.Box[A], E.Box[A + 3]));
+        return usage(
+            fmt::format("--crop-box: {} to {} is empty, expected "
+                        "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1 and z0 < z1",
+                        E.Box[A], E.Box[A + 3]));
   if (!E.Sphere.empty() && !(E.Sphere[3] > 0))
-    return usage(fmt::format("--crop-sphere: a radius of {}, expected one "
-                             "above 0",
-                             E.Sphere[3]));
+    return usage(
+        fmt::format("--crop-sphere: a radius of {}, expected a radius above 0",
+                    E.Sphere[3]));
   return Success{};
 }
 
@@ -44,12 +44,13 @@ Expected<Success> leaveOut(Scene &S, const char *Name, const std::string &What,
                            std::vector<LeftOut> &Said, const Rule &Keep) {
   const std::size_t Count = S.size(), Gone = keepOnly(S, Keep);
   Said.push_back(
-      {fmt::format("left out {} of {} Gaussians {}", Gone, Count, What), Name,
+      {fmt::format("dropped {} of {} Gaussians {}", Gone, Count, What), Name,
        Gone});
   if (S.size() == 0)
-    return Error{"",
-                 fmt::format("all {} Gaussians are {}, expected one to keep",
-                             Count, What)};
+    return Error{
+        "",
+        fmt::format("all {} Gaussians are {}, expected at least one to remain",
+                    Count, What)};
   return Success{};
 }
 
@@ -66,7 +67,7 @@ Similarity moveOf(const SceneEdits &E) {
 } // namespace
 
 void addEditOptions(CLI::App &App, SceneEdits &E) {
-  constexpr const char *Group = "Changes, in this order";
+  constexpr const char *Group = "Edits, applied in this order";
   const auto Numbers = [&](const char *Name, std::vector<double> &To, int Count,
                            const char *Text, const char *What) {
     App.add_option(Name, To, What)
@@ -79,25 +80,26 @@ void addEditOptions(CLI::App &App, SceneEdits &E) {
       ->option_text("S")
       ->group(Group);
   Numbers("--rotate", E.Rotate, 3, "X,Y,Z",
-          "Turn by degrees about x, then about y, then about z, harmonics too");
+          "Rotate by degrees about x, then y, then z, including spherical "
+          "harmonics");
   Numbers("--translate", E.Translate, 3, "X,Y,Z", "Move");
   App.add_option("--drop-faint", E.Faint,
-                 "Leave out Gaussians of an opacity below A")
+                 "Drop Gaussians with an opacity below A")
       ->option_text("A")
       ->check(isBetween(0.0, 1.0))
       ->group(Group);
   Numbers("--crop-box,--filter-box", E.Box, 6, "X0,Y0,Z0,X1,Y1,Z1",
-          "Keep Gaussians whose centre is inside of two corners");
+          "Keep Gaussians whose centre is inside the box between two corners");
   Numbers("--crop-sphere,--filter-sphere", E.Sphere, 4, "X,Y,Z,R",
           "Keep Gaussians whose centre is within R of a point");
   App.add_option("--degree,--filter-harmonics", E.Degree,
-                 "Keep spherical harmonics up to this degree")
+                 "Keep spherical harmonics up to degree N")
       ->option_text("N")
       ->check(isBetween(0, MaxShDegree))
       ->group(Group);
-  App.add_flag("--morton-order", E.MortonOrder,
-               "Order Gaussians along a Morton curve (Z-order curve) of their "
-               "means, so that neighbours in the file are neighbours in space")
+  App.add_flag(
+         "--morton-order", E.MortonOrder,
+         "Sort Gaussians along a Morton curve (Z-order curve) of their means")
       ->group(Group);
 }
 
@@ -108,14 +110,14 @@ Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E) {
   std::vector<LeftOut> &Said = Done.Left;
   transform(S, moveOf(E));
   if (auto Finite = checkFinite("", S); !Finite)
-    return Error{"", "the moved scene is beyond the range of floats, expected "
-                     "a smaller --scale or --translate"};
+    return Error{"", "the transformed scene exceeds the range of floats, "
+                     "expected a smaller --scale or --translate"};
   if (E.Faint)
-    if (auto Kept =
-            leaveOut(S, "faint", fmt::format("fainter than {}", *E.Faint), Said,
-                     [&, Activated = activate<double>(S)](std::size_t I) {
-                       return Activated.Opacities[I] >= *E.Faint;
-                     });
+    if (auto Kept = leaveOut(
+            S, "faint", fmt::format("with an opacity below {}", *E.Faint), Said,
+            [&, Activated = activate<double>(S)](std::size_t I) {
+              return Activated.Opacities[I] >= *E.Faint;
+            });
         !Kept)
       return Kept.error();
   if (!E.Box.empty())
@@ -145,7 +147,7 @@ Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E) {
       return Kept.error();
   if (E.Degree && *E.Degree < S.ShDegree) {
     Said.push_back(
-        {fmt::format("left out harmonics above degree {}", *E.Degree),
+        {fmt::format("dropped spherical harmonics above degree {}", *E.Degree),
          "harmonics", 0});
     setShDegree(S, *E.Degree);
   }

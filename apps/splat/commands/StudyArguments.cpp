@@ -19,20 +19,22 @@ void addStudyOptions(CLI::App &App, StudyOptions &S, const std::string &What,
                      const std::string &Default) {
   writesFolder(App.add_option(
       "--out", S.Folder,
-      fmt::format("Folder for measurements and page; what is there, made from "
-                  "the same, is used (default: {}, in this folder)",
-                  Default)));
-  App.add_option("--jobs", S.Jobs,
-                 fmt::format("So many {}s are measured at the same time", What))
+      fmt::format(
+          "Folder for measurements and page; existing measurements of the same "
+          "inputs are reused (default: {}, in the current folder)",
+          Default)));
+  App.add_option(
+         "--jobs", S.Jobs,
+         fmt::format("Number of {}s that are measured in parallel", What))
       ->check(isBetween(1U, 256U))
       ->option_text("N");
-  App.add_flag("--list", S.List,
-               fmt::format("Print the {}s that are missing, one a line, and "
-                           "measure none",
-                           What));
+  App.add_flag(
+      "--list", S.List,
+      fmt::format("Print the missing {}s, one per line, and measure none",
+                  What));
   App.add_option("--only", S.Only,
-                 fmt::format("Measure this {} alone, as --list prints it; no "
-                             "page",
+                 fmt::format("Measure only this {}, named as --list prints it, "
+                             "and write no page",
                              What))
       ->option_text(upperCase(What))
       ->allow_extra_args(false)
@@ -46,8 +48,8 @@ static Expected<Success> checkNames(const std::vector<Camera> &Views,
   for (const Camera &View : Views)
     if (!Names.insert(asFileName(View.Name)).second)
       return Error{File,
-                   fmt::format("two of the views would be kept as {}, expected "
-                               "views of different names",
+                   fmt::format("two of the views would be stored as {}, "
+                               "expected views with different names",
                                asFileName(View.Name)),
                    ExitCode::Usage};
   return Success{};

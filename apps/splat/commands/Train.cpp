@@ -64,7 +64,7 @@ void showProgress(const TrainProgress &P) {
                    P.Last - P.First - 1),
       counted(R.Gaussians, "Gaussian"), (R.Iteration - P.First) / P.Seconds,
       P.MachineRate
-          ? fmt::format(", {:.3f} of the machine's clock", *P.MachineRate)
+          ? fmt::format(", {:.3f} it/s of modelled time", *P.MachineRate)
           : "");
   if (Terminal)
     showStatus(Line);
@@ -133,28 +133,29 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
   printOut("pictures     {} to train on, {} held out ({}); {}\n",
            Out.TrainingViews, Out.HeldOut.size(), Out.HeldOutBy, PhotoFilter);
   if (Out.WithoutPicture != 0)
-    printOut("left out     {} without a picture\n",
+    printOut("skipped      {} without a picture\n",
              counted(Out.WithoutPicture, "view"));
   if (Out.Distorted != 0 && R.Run.Pictures == LensOf::Undistorted)
     printOut("undistorted  {}; {}\n", counted(Out.Distorted, "picture"),
              LensFilter);
   else if (Out.Distorted != 0)
-    printOut("distorted    {}, as {}\n", counted(Out.Distorted, "picture"),
+    printOut("distorted    {}, used as {}\n", counted(Out.Distorted, "picture"),
              Out.Distorted == 1 ? "it is" : "they are");
   if (R.Run.Through == Spread::Unscented)
     printOut("projection   unscented: eval and render need --projection "
              "unscented, too\n");
   if (R.Run.Masks != MaskSource::None)
     printOut("masks        {}\n", R.Run.Masks == MaskSource::Alpha
-                                      ? "transparent pixels do not count"
+                                      ? "transparent pixels are masked out"
                                       : "of " + counted(Out.Masked, "picture"));
   if (Out.Depths != 0)
     printOut("depths       of {} of points in the pictures\n",
              counted(Out.Depths, "place"));
   if (const auto &P = Out.Poses)
-    printOut("poses        turned by {:.4f} rad and moved by {:.4g}, mean of "
-             "pictures; most {:.4f} rad and {:.4g}\n",
-             P->MeanTurn, P->MeanShift, P->MostTurn, P->MostShift);
+    printOut(
+        "poses        rotated by {:.4f} rad and translated by {:.4g}, mean of "
+        "pictures; maximum {:.4f} rad and {:.4g}\n",
+        P->MeanTurn, P->MeanShift, P->MostTurn, P->MostShift);
   if (R.Run.Batch != 1 || Out.Processes != 1)
     printOut("views        {} an iteration, on {}\n", R.Run.Batch,
              counted(Out.Processes, "device"));
@@ -170,12 +171,12 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
     printOut("machine time {}\nmachine      {}\n", Out.Timed.text(),
              escaped(Out.Timed.machine()));
   else if (A.isClocked())
-    printOut("machine time unknown: of iterations {} to {} none was timed, "
-             "expected a smaller --time-every than {}\n",
+    printOut("machine time unknown: none of the iterations {} to {} was timed, "
+             "expected --time-every below {}\n",
              Out.First + 1, Out.Iterations, A.timeEvery());
   if (const auto &B = Out.Without)
     printOut("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n"
-             "without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
+             "baselines    constant {:.3f} dB, mean picture {:.3f} dB, best "
              "training view {:.3f} dB\n",
              Out.meanDb(), B->Constant, B->Mean, B->BestView);
   else
@@ -211,19 +212,18 @@ Expected<Success> check(const TrainArguments &A) {
       !(A.Pictures.Html.empty() && A.Pictures.Pictures.empty()))
     return Error{"",
                  "--html and --pictures show held-out views, expected "
-                 "--hold-out above 0 with them",
+                 "--hold-out above 0",
                  ExitCode::Usage};
   if (R.Read.HoldOut == 0U && R.ScoreEvery != 0)
-    return Error{"",
-                 "--score-every scores held-out views, expected --hold-out "
-                 "above 0 with it",
-                 ExitCode::Usage};
-  if (A.GivenTimeEvery && !A.isClocked())
     return Error{
-        "", "--time-every: expected --time, --breakdown or --energy with it",
+        "",
+        "--score-every evaluates held-out views, expected --hold-out above 0",
         ExitCode::Usage};
+  if (A.GivenTimeEvery && !A.isClocked())
+    return Error{"", "--time-every: expected --time, --breakdown or --energy",
+                 ExitCode::Usage};
   if (R.ScoreEvery != 0 && A.Json.empty())
-    return Error{"", "--score-every: expected --json with it", ExitCode::Usage};
+    return Error{"", "--score-every: expected --json", ExitCode::Usage};
   const InputFiles Inputs = InputFiles()
                                 .watched()
                                 .capture(R.Capture)
@@ -285,38 +285,39 @@ Runner addTrain(CLI::App &App) {
   auto A = std::make_shared<TrainArguments>();
   TrainRequest &R = A->Trained.Request;
   writesFile(App.add_option("-o,--output", A->Output,
-                            "Scene: INRIA's PLY (default: the capture's name "
-                            "and .ply, in this folder)"),
+                            "Scene to write, INRIA's PLY (default: the "
+                            "capture's name with .ply, in the current folder)"),
              {".ply"});
   addTrainedOptions(App, A->Trained);
   addTrainPathOptions(App, R);
-  writesFile(
-      App.add_option("--checkpoint", R.Checkpoint,
-                     "Where the run is kept (default: the output's name and "
-                     ".checkpoint)"));
+  writesFile(App.add_option(
+      "--checkpoint", R.Checkpoint,
+      "Checkpoint file (default: the output's name with .checkpoint)"));
   App.add_option("--checkpoint-every", R.CheckpointEvery,
-                 "Iterations from one to the next (default 1000)")
+                 "Iterations between checkpoints (default 1000)")
       ->check(isIterations());
   App.add_flag("--resume", R.Resume,
-               "Go on from the checkpoint, if there is one");
+               "Continue from the checkpoint if it exists");
   App.add_flag("--time", A->Time,
-               "Say how long iterations take on the machine (docs/model.md)");
-  App.add_flag("--breakdown", A->Breakdown,
-               "The same, with the last one that is timed by stage");
+               "Report the modelled time of iterations (docs/model.md)");
+  App.add_flag(
+      "--breakdown", A->Breakdown,
+      "As --time, with a breakdown of the last timed iteration by stage");
   App.add_option("--time-every", A->GivenTimeEvery,
-                 "Of so many iterations one is timed, drawn at random from the "
-                 "seed (default 50)")
+                 "Time one of N iterations, sampled at random from the seed "
+                 "(default 50)")
       ->check(isIterations());
   addEnergyOptions(App, A->Energy,
-                   "the last iteration that is timed (in --json: each)");
+                   "the last timed iteration (in --json: of each)");
   App.add_option("--score-every", R.ScoreEvery,
-                 "Score the held-out views after every so many iterations, "
-                 "for --json (default: at the end alone)");
+                 "Evaluate the held-out views every N iterations, for --json "
+                 "(default: only at the end)");
+  writesFile(App.add_option("--json", A->Json,
+                            "Write a report with options, losses and times"),
+             {".json"});
   writesFile(
-      App.add_option("--json", A->Json, "Write what was done, and its losses"),
-      {".json"});
-  writesFile(App.add_option("--curve", A->Curve, "Draw the losses (.svg)"),
-             {".svg"});
+      App.add_option("--curve", A->Curve, "Write a plot of the loss (.svg)"),
+      {".svg"});
   addTrainPictures(App, A->Pictures);
   addDeviceOption(App, A->Device);
   return [A, &App](const DeviceOptions &Machine) -> Expected<Success> {

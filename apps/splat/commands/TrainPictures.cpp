@@ -22,10 +22,11 @@ std::string camerasFor(const std::string &Output) {
 void addTrainPictures(CLI::App &App, TrainPictures &P) {
   writesFiles(
       App.add_option("--pictures", P.Pictures,
-                     "Write what held-out views show beside their photographs: "
-                     "PREFIX.NAME.drawn.png and PREFIX.NAME.photo.png"));
+                     "Write the rendered held-out views and their photographs "
+                     "as PREFIX.NAME.drawn.png and PREFIX.NAME.photo.png"));
   writesFile(
-      App.add_option("--html", P.Html, "Write a page of the same, with scores"),
+      App.add_option("--html", P.Html,
+                     "Write a page with these pictures and their scores"),
       {".html"});
 }
 

@@ -8,23 +8,24 @@
 namespace vorion::splat {
 
 void addSettingOptions(CLI::App &App, SettingOptions &To) {
-  constexpr const char *Group = "Settings of training";
-  takesNameOrFile(App.add_option("--preset", To.Preset,
-                                 fmt::format("Settings to begin with: {} or a "
-                                             "file .json (default {})",
-                                             fmt::join(presetNames(), ", "),
-                                             presetNames().front())),
-                  {presetNames().begin(), presetNames().end()}, {".json"})
+  constexpr const char *Group = "Hyperparameters of training";
+  takesNameOrFile(
+      App.add_option("--preset", To.Preset,
+                     fmt::format("Hyperparameters to start from: {} or a "
+                                 "file .json (default {})",
+                                 fmt::join(presetNames(), ", "),
+                                 presetNames().front())),
+      {presetNames().begin(), presetNames().end()}, {".json"})
       ->group(Group);
   App.add_option("--density", To.Method,
-                 "How Gaussians are added and dropped: classic, or mcmc "
+                 "Density control: classic (Kerbl et al. 2023), or mcmc "
                  "(Kheradmand et al. 2024) (default classic)")
       ->option_text("classic|mcmc")
       ->check(isOneOf({std::string(name(DensityMethod::Classic)),
                        std::string(name(DensityMethod::Mcmc))}))
       ->group(Group);
   App.add_flag("--absgrad", To.AbsoluteGradient,
-               "Gradients decide without their signs (Ye et al. 2024); with "
+               "Densify by absolute gradients (AbsGS, Ye et al. 2024); needs "
                "--path simt")
       ->group(Group);
   const TrainSettings Default;
@@ -69,13 +70,12 @@ SettingOptions::settings(const CLI::App &App, const TrainSettings &Own) const {
                                                    : DensityMethod::Classic;
   S.AbsoluteGradient = S.AbsoluteGradient || AbsoluteGradient;
   if (S.AbsoluteGradient && S.Method != DensityMethod::Classic)
-    return Error{"", "--absgrad: expected --density classic with it",
-                 ExitCode::Usage};
+    return Error{"", "--absgrad: expected --density classic", ExitCode::Usage};
   for (const auto &[Field, Value] : Values) {
     if (Field->Only && *Field->Only != S.Method)
       return Error{"",
-                   fmt::format("{}: expected --density {} with it",
-                               Field->option(), name(*Field->Only)),
+                   fmt::format("{}: expected --density {}", Field->option(),
+                               name(*Field->Only)),
                    ExitCode::Usage};
     Field->set(S, Value);
   }
@@ -87,8 +87,8 @@ SettingOptions::settings(const CLI::App &App, const TrainSettings &Own) const {
     const SettingField &First = settingField(Field->Name.substr(Last.size()));
     if (First.get(S) == 0)
       return Error{"",
-                   fmt::format("{}: expected {} above 0 with it",
-                               Field->option(), First.option()),
+                   fmt::format("{}: expected {} above 0", Field->option(),
+                               First.option()),
                    ExitCode::Usage};
   }
   return S;

@@ -17,62 +17,62 @@ void addTrainedOptions(CLI::App &App, TrainedArguments &A) {
                            "Photographs with poses: COLMAP, NeRF-synthetic, "
                            "transforms.json"))
       ->required();
-  App.add_option("--iterations", S.Iterations,
-                 fmt::format("Iterations in all (default {})", S.Iterations))
+  App.add_option(
+         "--iterations", S.Iterations,
+         fmt::format("Total number of iterations (default {})", S.Iterations))
       ->check(isIterations());
   App.add_option("--downscale", R.Downscale,
-                 "Pictures so many times smaller (default 1)")
+                 "Downsampling factor of the photographs (default 1)")
       ->check(isBetween(1, 64));
   App.add_option("--max-gaussians", S.MostGaussians,
-                 fmt::format("No more Gaussians than this (default {})",
+                 fmt::format("Maximum number of Gaussians (default {})",
                              S.MostGaussians))
       ->check(isBetween(4U, 100000000U));
   addChoice(App, "--moments", R.Moments,
             {MomentsChoice::Auto, MomentsChoice::Device, MomentsChoice::Host},
-            "Where Adam's moments lie, which changes no bit: with auto on the "
-            "host if the device does not hold --max-gaussians with them");
-  App.add_option("--exclude", R.Read.Exclude, "Leave out this picture")
+            "Memory of Adam's moments; results are bit-identical. auto: on the "
+            "host if the device's memory is too small for --max-gaussians");
+  App.add_option("--exclude", R.Read.Exclude,
+                 "Exclude this picture; may be repeated")
       ->allow_extra_args(false);
   addHoldOutOption(App, R.Read.HoldOut);
   addOutsideOption(App, R.Read.AllowOutside);
   App.add_option("--batch", R.Run.Batch,
-                 "Views an iteration, shared out to the processes that mpirun "
-                 "started, each with a device of its own (default 1)")
+                 "Views per iteration, distributed over the processes that "
+                 "mpirun started, each with its own device (default 1)")
       ->check(isBetween(1U, 4096U));
-  App.add_option("--seed", R.Run.Seed, "Of all random numbers (default 0)")
+  App.add_option("--seed", R.Run.Seed, "Seed of all random numbers (default 0)")
       ->check(isBetween<uint64_t>(0, MostSeed));
   App.add_option("--sh-degree", R.ShDegree,
-                 "Bands of spherical harmonics (default 3)")
+                 "Degree of spherical harmonics (default 3)")
       ->check(isBetween(0, MaxShDegree));
-  addBackgroundOption(App, R.Run.Background,
-                      "Colour r,g,b behind the scene and under transparent "
-                      "pixels (default 0,0,0)");
-  App.add_flag(
-      "--random-background", R.Run.RandomBackground,
-      "Another colour for each view of an iteration; --background is that of "
-      "held-out views");
+  addBackgroundOption(
+      App, R.Run.Background,
+      "Background colour, also under transparent pixels (default 0,0,0)");
+  App.add_flag("--random-background", R.Run.RandomBackground,
+               "Use a random background for each view of an iteration; "
+               "--background then applies to held-out views only");
   addMasksOption(App, R.Run.Masks);
   App.add_flag(
       "--distorted",
       [&R](std::int64_t) { R.Run.Pictures = LensOf::Photograph; },
-      "Train on photographs as they are, through their lenses, instead of "
+      "Train with the lens distortion of the photographs instead of "
       "undistorting them");
   addProjectionOption(App, R.Run.Through);
   App.add_flag(
       "--antialiased", R.Run.Antialiased,
-      "Lower opacities where the dilation widens a Gaussian; the scene "
-      "says that it is to be drawn so");
+      "Compensate opacities for the dilation; the scene's file records this");
   addRulesOption(App, R.Convention);
-  takesFile(
-      App.add_option("--from", R.From,
-                     "Begin with the scene, the moments and the iteration of "
-                     "another run's checkpoint"));
+  takesFile(App.add_option("--from", R.From,
+                           "Start from the scene, the moments and the "
+                           "iteration of another run's checkpoint"));
   addSettingOptions(App, A.Settings);
 }
 
 void addTrainPathOptions(CLI::App &App, TrainRequest &R) {
   addPathOption(App, R.Blending.Kind,
-                "Who blends and goes back: the rasterizer or the cores");
+                "Unit that runs blending and its backward pass: the rasterizer "
+                "or the cores");
   addSimtOptions(App, R.Blending.SimtTile, R.Blending.SimtGroup, SimtTilesBack);
   addBackwardOptions(App, R.Backward);
 }
@@ -100,11 +100,11 @@ Expected<Success> checkTrained(const TrainRequest &R) {
       !Checked)
     return Checked;
   if (R.Run.Settings.AbsoluteGradient && R.Blending.Kind != Path::Simt)
-    return usage("--absgrad: the rasterizer's nine sums have no absolute "
-                 "values, expected --path simt with it");
+    return usage("--absgrad: the rasterizer accumulates no absolute gradients, "
+                 "expected --path simt");
   if (R.Run.Pictures == LensOf::Photograph && looksAtDepths(R.Run.Settings))
-    return usage("--depth-weight: depths are known in undistorted pictures "
-                 "alone, expected no --distorted with it");
+    return usage("--depth-weight: the depth loss needs undistorted pictures, "
+                 "expected no --distorted");
   for (const float V : R.Run.Background)
     if (!(V >= 0 && V <= 1))
       return usage(

@@ -93,7 +93,8 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
     return Listening.error();
   (*Listening)->serve([&] {
     printOut("splat view: {}\n", (*Listening)->address());
-    printNote("open it in a browser on this computer; Ctrl-C ends\n");
+    printNote(
+        "open this address in a browser on this computer; Ctrl-C exits\n");
     // Who waits for the address may read it from a pipe.
     std::fflush(stdout);
   });
@@ -107,10 +108,12 @@ Runner addView(CLI::App &App) {
   addSceneOptions(App, A->Scene);
   addCameraOptions(App, A->Cameras, /*Several=*/false);
   App.add_option("--port", A->Port,
-                 "Port of 127.0.0.1 (default 0: one that is free)")
+                 "TCP port on 127.0.0.1 (default 0: any free port)")
       ->check(isBetween(0, 65535));
-  App.add_option("--size", A->Size,
-                 "Size of a picture at rest (default " + A->Size + ")")
+  App.add_option(
+         "--size", A->Size,
+         "Resolution of a picture while the camera is at rest (default " +
+             A->Size + ")")
       ->option_text("WIDTHxHEIGHT");
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->Kernels);

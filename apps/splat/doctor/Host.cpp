@@ -29,7 +29,7 @@ Diagnosis examineDisk(const std::string &Folder, uint64_t FreeBytes) {
     return {DiagnosisState::Fault, "disk",
             fmt::format("{} has {} free, expected {}", Folder,
                         mebibytes(FreeBytes), mebibytes(LeastDisk)),
-            "delete files there, or work on another disk"};
+            "delete files there, or use another disk"};
   return {DiagnosisState::Well, "disk",
           fmt::format("{} has {} free", Folder, mebibytes(FreeBytes)), ""};
 }
@@ -47,8 +47,8 @@ Diagnosis examineDisk(const std::string &Folder) {
 Diagnosis examineMemory(uint64_t AvailableBytes) {
   if (AvailableBytes < LeastMemory)
     return {DiagnosisState::Fault, "memory",
-            fmt::format("{} of main memory are available, expected {}, which "
-                        "the machine has by default",
+            fmt::format("{} of main memory are available, expected {}, the "
+                        "default memory of the machine",
                         mebibytes(AvailableBytes), mebibytes(LeastMemory)),
             "end other programs"};
   return {
@@ -65,7 +65,7 @@ Diagnosis examineMemory() {
       return examineMemory(KiB * 1024);
   }
   return {DiagnosisState::Note, "memory",
-          "this system does not say how much memory is available", ""};
+          "this system does not report the available memory", ""};
 }
 
 Diagnosis examineVectors() {
@@ -79,7 +79,7 @@ Diagnosis examineVectors() {
       return {DiagnosisState::Well, "vectors",
               "the processor has AVX-512, which the simulator uses", ""};
     return {DiagnosisState::Well, "vectors",
-            "the processor has an old AVX-512: the simulator uses it for the "
+            "the processor has an early AVX-512: the simulator uses it for the "
             "rasterizers, and AVX2 for the cores",
             ""};
   }
@@ -92,7 +92,8 @@ Diagnosis examineVectors() {
           ""};
 #else
   return {DiagnosisState::Note, "vectors",
-          "the processor is no x86-64, on which alone the simulator is tested",
+          "the processor is not an x86-64, the only one on which the simulator "
+          "is tested",
           ""};
 #endif
 }
@@ -132,7 +133,7 @@ Diagnoses examineCache(const KernelCacheFolder &Cache) {
         State, "kernel cache", std::move(Text),
         State == DiagnosisState::Well
             ? ""
-            : "set POCL_CACHE_DIR to a folder that you alone can write"};
+            : "set POCL_CACHE_DIR to a folder that only you can write"};
   };
   if (!Cache.Problem.empty())
     return {Said(DiagnosisState::Fault, Cache.Problem)};
@@ -141,8 +142,8 @@ Diagnoses examineCache(const KernelCacheFolder &Cache) {
     Found.push_back(Said(DiagnosisState::Note, Why));
   if (Cache.Path.empty())
     Found.push_back(Said(DiagnosisState::Note,
-                         "no folder keeps compiled kernels, so every program "
-                         "compiles its own again"));
+                         "no cache folder for compiled kernels, so "
+                         "every program compiles its own again"));
   else if (auto Writable = checkWritable(Cache.Path + "/doctor"); !Writable)
     Found.push_back(
         Said(DiagnosisState::Fault,
@@ -164,13 +165,13 @@ Diagnosis examineSystemCache(const std::string &Folder) {
   };
   std::error_code Failed;
   if (!fs::exists(Folder, Failed)) {
-    Found.Text =
-        fmt::format("{} is not there; root can fill it for all users", Folder);
+    Found.Text = fmt::format(
+        "{} does not exist; root can create it for all users", Folder);
     return Found;
   }
   if (std::string Why = whyUntrusted(Folder, 0); !Why.empty())
     return Fault(fmt::format("{}, so {} is not read", Why, Folder),
-                 "let root own it, and nobody else write it");
+                 "make root its owner, and writable only by root");
   if (fs::directory_iterator Unread(Folder, Failed); Failed)
     return Fault(fmt::format("{}: {}", Folder, Failed.message()),
                  fmt::format("type, as root: chmod -R a+rX {}", Folder));

@@ -90,9 +90,8 @@ Vendors examineVendors(const std::string &Place) {
   };
   std::error_code Failed;
   if (!fs::exists(Place, Failed))
-    return Fault(fmt::format("{} is not there, so programs find no OpenCL "
-                             "platform",
-                             Place));
+    return Fault(fmt::format(
+        "{} does not exist, so programs find no OpenCL platform", Place));
   if (fs::is_regular_file(Place, Failed) && isLibrary(Place)) {
     V.Libraries.push_back(Place);
     V.Found.Text = fmt::format("{} is a library", Place);
@@ -102,11 +101,11 @@ Vendors examineVendors(const std::string &Place) {
     std::ifstream Text(File);
     std::string Library;
     if (!std::getline(Text, Library) || Library.empty())
-      return Fault(fmt::format("{} names no library", File.string()));
+      return Fault(fmt::format("{} does not name a library", File.string()));
     // A name without a folder is the dynamic linker's to find.
     if (Library.find('/') != std::string::npos && !fs::exists(Library, Failed))
-      return Fault(fmt::format("{} names {}, which is not there", File.string(),
-                               Library));
+      return Fault(fmt::format("{} names {}, which does not exist",
+                               File.string(), Library));
     V.Libraries.push_back(Library);
   }
   if (V.Libraries.empty())
@@ -186,7 +185,7 @@ Diagnoses examineLibraries(const std::vector<std::string> &Libraries) {
     if (const int Signal = signalOf(Library); Signal != 0)
       Found.push_back(
           {DiagnosisState::Fault, "platform",
-           fmt::format("{} ends programs that look for its devices ({})",
+           fmt::format("{} crashes programs that query its devices ({})",
                        Library, strsignal(Signal)),
            fmt::format("{}, or remove the package of that library",
                        sourceEnvironment())});
@@ -257,12 +256,12 @@ Diagnoses examineDevice(const DeviceOptions &Options) {
   if (const std::string Problem = runKernel(*D); !Problem.empty())
     Found.push_back(
         {DiagnosisState::Fault, "kernel", "a small kernel " + Problem,
-         "mend the faults above; if there are none, build or install "
+         "fix the problems above; if there are none, build or install "
          "again"});
   else
-    Found.push_back({DiagnosisState::Well, "kernel",
-                     "a small kernel compiles, runs and gives the right values",
-                     ""});
+    Found.push_back(
+        {DiagnosisState::Well, "kernel",
+         "a small kernel compiles, runs and computes the right values", ""});
   return Found;
 }
 

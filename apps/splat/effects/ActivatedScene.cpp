@@ -11,8 +11,7 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   if (effects::Needles.Detect(In).Needed)
-    return {false, "the effect needles needs quaternions as they are stored",
-            false};
+    return {false, "the effect needles needs unnormalized quaternions", false};
   return {In.Views > 1, fmt::format("{} {} of the scene", In.Views,
                                     In.Views == 1 ? "picture" : "pictures")};
 }

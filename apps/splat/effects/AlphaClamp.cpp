@@ -16,7 +16,7 @@ constexpr float LogitSlack = 1e-5F;
 
 Finding detect(const EffectInputs &In) {
   if (In.Options.Blending == Path::Raster)
-    return {false, "in the rasterizer's lanes", false};
+    return {false, "in the lanes of the rasterizer", false};
   if (In.Options.Exponential != ExpUnit::Exact)
     return {true,
             fmt::format("--exp {} may exceed 1", name(In.Options.Exponential))};

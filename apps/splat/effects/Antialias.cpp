@@ -9,9 +9,11 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   const RenderOptions &O = In.Options;
-  return {O.Antialiased, O.AntialiasedBy.empty()
-                             ? "neither the scene's file nor --antialiased"
-                             : O.AntialiasedBy};
+  return {
+      O.Antialiased,
+      O.AntialiasedBy.empty()
+          ? "neither the scene's file nor --antialiased selects it selects it"
+          : O.AntialiasedBy};
 }
 
 } // namespace
@@ -19,7 +21,7 @@ Finding detect(const EffectInputs &In) {
 const Effect effects::Antialias{
     .Name = "antialias",
     .Kind = EffectKind::Scene,
-    .What = "opacity times the root of the determinants' ratio",
+    .What = "opacity times the square root of the ratio of determinants",
     .Macro = "USE_ANTIALIAS",
     .Detect = detect,
     .Neutral = false};

@@ -16,10 +16,10 @@ constexpr double Longest = 8192;
 Finding detect(const EffectInputs &In) {
   if (In.Options.Optics->CoversSphere ||
       In.Options.Through != Spread::Jacobian || In.Options.Rolling)
-    return {false,
-            "not for full spheres, the unscented transform and rolling "
-            "shutters",
-            false};
+    return {
+        false,
+        "not with full spheres, the unscented transform or rolling shutters",
+        false};
   const ViewFacts &F = In.Facts;
   const bool IsParallel = In.Options.Optics->IsParallel;
   const double Length = IsParallel ? F.FocalLength * F.Farthest : F.FocalLength;
@@ -35,13 +35,14 @@ Finding detect(const EffectInputs &In) {
 
 } // namespace
 
-const Effect effects::Crop{.Name = "crop",
-                           .Kind = EffectKind::Scene,
-                           .What = "means from the ray through the picture's "
-                                   "middle, as sums of two floats",
-                           .Macro = "USE_CROP",
-                           .Detect = detect,
-                           .Neutral = false,
-                           .ByCamera = true};
+const Effect effects::Crop{
+    .Name = "crop",
+    .Kind = EffectKind::Scene,
+    .What = "means relative to the ray through the picture's centre, as "
+            "unevaluated sums of two floats",
+    .Macro = "USE_CROP",
+    .Detect = detect,
+    .Neutral = false,
+    .ByCamera = true};
 
 } // namespace vorion::splat

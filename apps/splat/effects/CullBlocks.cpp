@@ -8,8 +8,9 @@ namespace vorion::splat {
 namespace {
 
 Finding detect(const EffectInputs &In) {
-  return In.Options.CullBlocks ? Finding{true, "--cull-blocks"}
-                               : Finding{false, "not asked (--cull-blocks)"};
+  return In.Options.CullBlocks
+             ? Finding{true, "--cull-blocks"}
+             : Finding{false, "not requested (--cull-blocks)"};
 }
 
 } // namespace
@@ -17,7 +18,7 @@ Finding detect(const EffectInputs &In) {
 const Effect effects::CullBlocks{
     .Name = "cull-blocks",
     .Kind = EffectKind::Machine,
-    .What = "the kernel cull_blocks, and a test of its verdict in project",
+    .What = "the kernel cull_blocks, and a test of its result in project",
     .Macro = "USE_CULL_BLOCKS",
     .Detect = detect,
     .ByCamera = true};

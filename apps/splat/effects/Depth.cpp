@@ -8,15 +8,15 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   return In.Depth ? Finding{true, "--depth"}
-                  : Finding{false, "not asked (--depth)"};
+                  : Finding{false, "not requested (--depth)"};
 }
 
 } // namespace
 
-const Effect effects::Depth{
-    .Name = "depth",
-    .Kind = EffectKind::Observation,
-    .What = "the kernel depths_for_colors, and a second blend of the lists",
-    .Detect = detect};
+const Effect effects::Depth{.Name = "depth",
+                            .Kind = EffectKind::Observation,
+                            .What = "the kernel depths_for_colors, and a "
+                                    "second blending pass over the lists",
+                            .Detect = detect};
 
 } // namespace vorion::splat

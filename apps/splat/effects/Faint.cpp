@@ -18,7 +18,7 @@ Finding detect(const EffectInputs &In) {
   if (In.Options.Reach != Support::Exact)
     return {false, "a rule of --support exact", false};
   if (In.Options.Antialiased)
-    return {true, "antialias lowers opacities by what the view decides"};
+    return {true, "antialias lowers opacities by a view-dependent factor"};
   const float Limit = opacityLogit(In.Options.AlphaCutoff / 255.0);
   return {!(In.Facts.LeastLogit > Limit + LogitSlack),
           fmt::format("least logit of an opacity {:.6g}, of {}/255 {:.6g}",

@@ -10,9 +10,9 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   if (!In.Options.Optics->HoldsSlopes)
-    return {false, "no limits of x/z and y/z with this camera", false};
+    return {false, "this camera has no limits of x/z and y/z", false};
   if (In.Options.Rolling)
-    return {true, "the camera moves while it exposes"};
+    return {true, "the camera moves during the exposure"};
   return {In.Facts.BeyondField != 0,
           fmt::format("{} of {} means at or beyond the limits of x/z and y/z",
                       In.Facts.BeyondField, In.Gaussians.size())};

@@ -9,7 +9,7 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   return In.Options.Blending == Path::Raster
-             ? Finding{true, "--path raster fetches by it"}
+             ? Finding{true, "--path raster fetches records by the tag"}
              : Finding{false, "--path simt reads no tags"};
 }
 

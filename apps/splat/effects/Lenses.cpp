@@ -10,7 +10,7 @@ namespace vorion::splat {
 
 Finding Effect::findLens(const EffectInputs &In) const {
   const bool Is = In.Options.Optics == Lens;
-  return {Is, Is ? "the camera's model" : "the camera has another model", Is};
+  return {Is, Is ? "the camera's model" : "another camera model", Is};
 }
 
 std::span<const Effect> effects::ofLenses() {

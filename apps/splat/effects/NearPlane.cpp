@@ -12,7 +12,8 @@ Finding detect(const EffectInputs &In) {
   const float Limit = In.Options.nearLimit();
   const ViewFacts &F = In.Facts;
   if (In.Options.Rolling)
-    return {false, "the shutter's code tests each mean at its own moment"};
+    return {false,
+            "the code of the shutter tests each mean at its own exposure time"};
   return {!(F.NearestDepth - F.DepthSlack > Limit),
           fmt::format("nearest mean at depth {:.6g}, limit {:g}",
                       F.NearestDepth, Limit)};

@@ -10,7 +10,7 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   if (In.Options.Through != Spread::Jacobian || In.Options.Rolling)
-    return {false, "not for the unscented transform and rolling shutters",
+    return {false, "not with the unscented transform or rolling shutters",
             false};
   const std::size_t Count = In.Facts.Pointing;
   return {Count != 0,
@@ -23,8 +23,8 @@ Finding detect(const EffectInputs &In) {
 
 const Effect effects::Needles{.Name = "needles",
                               .Kind = EffectKind::Scene,
-                              .What = "parts of the axes across the ray, as "
-                                      "sums of two floats",
+                              .What = "components of the axes across the ray, "
+                                      "as unevaluated sums of two floats",
                               .Macro = "USE_NEEDLES",
                               .Detect = detect,
                               .Neutral = false,

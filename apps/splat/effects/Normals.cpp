@@ -8,15 +8,15 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   return In.Normals ? Finding{true, "--normals"}
-                    : Finding{false, "not asked (--normals)"};
+                    : Finding{false, "not requested (--normals)"};
 }
 
 } // namespace
 
-const Effect effects::Normals{
-    .Name = "normals",
-    .Kind = EffectKind::Observation,
-    .What = "the kernel normals_for_colors, and a second blend of the lists",
-    .Detect = detect};
+const Effect effects::Normals{.Name = "normals",
+                              .Kind = EffectKind::Observation,
+                              .What = "the kernel normals_for_colors, and a "
+                                      "second blending pass over the lists",
+                              .Detect = detect};
 
 } // namespace vorion::splat

@@ -22,7 +22,7 @@ Finding asked(const EffectInputs &In,
                         : In.Machine.giver(Name)};
     Names += (Names.empty() ? "" : ", ") + std::string(Name);
   }
-  return {false, "not asked (" + Names + ")"};
+  return {false, "not requested (" + Names + ")"};
 }
 
 Finding detectClock(const EffectInputs &In) {
@@ -30,7 +30,7 @@ Finding detectClock(const EffectInputs &In) {
                   ? asked(In, {"VORION_REGION"})
                   : asked(In, {"VORION_TIME", "VORION_REGION"});
   if (!F.Needed)
-    F.Figure = "not asked (--time, --clock)";
+    F.Figure = "not requested (--time, --clock)";
   return F;
 }
 
@@ -64,7 +64,7 @@ Finding detectDebugger(const EffectInputs &In) {
 
 Finding detectPairs(const EffectInputs &In) {
   return In.KeepPairs ? Finding{true, "--dump-pairs"}
-                      : Finding{false, "not asked (--dump-pairs)"};
+                      : Finding{false, "not requested (--dump-pairs)"};
 }
 
 } // namespace
@@ -74,13 +74,13 @@ namespace effects {
 const Effect Clock{
     .Name = "clock",
     .Kind = EffectKind::Observation,
-    .What = "the machine's time: cores, caches, DRAM, rasterizers, pixel units",
+    .What = "the timing model: cores, caches, DRAM, rasterizers, pixel units",
     .Detect = detectClock};
 
 const Effect Numerics{
     .Name = "numerics",
     .Kind = EffectKind::Observation,
-    .What = "a double beside every fp32 value of cores and rasterizers",
+    .What = "a shadow double for every fp32 value of cores and rasterizers",
     .Detect = detectNumerics};
 
 const Effect Checkers{.Name = "checkers",

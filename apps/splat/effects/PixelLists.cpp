@@ -9,7 +9,8 @@ namespace {
 Finding detect(const EffectInputs &In) {
   return In.Lists
              ? Finding{true, "--contributors or --depth-as median"}
-             : Finding{false, "not asked (--contributors, --depth-as median)"};
+             : Finding{false,
+                       "not requested (--contributors, --depth-as median)"};
 }
 
 } // namespace
@@ -17,7 +18,7 @@ Finding detect(const EffectInputs &In) {
 const Effect effects::PixelLists{
     .Name = "pixel-lists",
     .Kind = EffectKind::Observation,
-    .What = "projected Gaussians and lists are read back",
+    .What = "read-back of projected Gaussians and lists",
     .Detect = detect};
 
 } // namespace vorion::splat

@@ -18,7 +18,8 @@ Finding detect(const EffectInputs &In) {
 const Effect effects::PixelUnit{
     .Name = "pixel-unit",
     .Kind = EffectKind::Machine,
-    .What = "reasons to hand over and a record a command; the pixel units",
+    .What =
+        "conditions for handing over and a record per command; the pixel units",
     .Macro = "USE_PIXEL_UNIT",
     .Detect = detect};
 

@@ -14,12 +14,12 @@ Finding detect(const EffectInputs &In) {
 
 } // namespace
 
-const Effect effects::RayOrder{
-    .Name = "ray-order",
-    .Kind = EffectKind::Scene,
-    .What = "the kernels ray_frames and blend_by_ray, which goes through a "
-            "list again and again",
-    .Detect = detect,
-    .Neutral = false};
+const Effect effects::RayOrder{.Name = "ray-order",
+                               .Kind = EffectKind::Scene,
+                               .What =
+                                   "the kernels ray_frames and blend_by_ray, "
+                                   "which makes several passes over a list",
+                               .Detect = detect,
+                               .Neutral = false};
 
 } // namespace vorion::splat

@@ -8,9 +8,7 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   const bool Is = In.Options.Rolling;
-  return {Is,
-          Is ? "the camera moves while it exposes"
-             : "the camera exposes at one moment",
+  return {Is, Is ? "the camera moves during the exposure" : "global shutter",
           Is};
 }
 
@@ -19,7 +17,8 @@ Finding detect(const EffectInputs &In) {
 const Effect effects::RollingShutter{
     .Name = "rolling-shutter",
     .Kind = EffectKind::Scene,
-    .What = "the moment of each mean by Newton's method, and the camera there",
+    .What = "the exposure time of each mean by Newton's method, and the camera "
+            "pose at that time",
     .Macro = "USE_ROLLING_SHUTTER",
     .Detect = detect,
     .Neutral = false,

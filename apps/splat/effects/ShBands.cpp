@@ -35,21 +35,21 @@ namespace effects {
 
 const Effect Sh1{.Name = "sh1",
                  .Kind = EffectKind::Scene,
-                 .What = "colour's band 1: 9 planes, 3 terms a channel",
+                 .What = "SH degree 1: 9 planes, 3 terms per channel",
                  .Macro = "USE_SH1",
                  .Detect = detect<1>,
                  .Within = &ViewColor};
 
 const Effect Sh2{.Name = "sh2",
                  .Kind = EffectKind::Scene,
-                 .What = "colour's band 2: 15 planes, 5 terms a channel",
+                 .What = "SH degree 2: 15 planes, 5 terms per channel",
                  .Macro = "USE_SH2",
                  .Detect = detect<2>,
                  .Within = &ViewColor};
 
 const Effect Sh3{.Name = "sh3",
                  .Kind = EffectKind::Scene,
-                 .What = "colour's band 3: 21 planes, 7 terms a channel",
+                 .What = "SH degree 3: 21 planes, 7 terms per channel",
                  .Macro = "USE_SH3",
                  .Detect = detect<3>,
                  .Within = &ViewColor};

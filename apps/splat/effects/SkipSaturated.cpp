@@ -9,7 +9,7 @@ namespace {
 Finding detect(const EffectInputs &In) {
   return In.Options.SkipSaturated
              ? Finding{true, "--skip-saturated"}
-             : Finding{false, "not asked (--skip-saturated)"};
+             : Finding{false, "not requested (--skip-saturated)"};
 }
 
 } // namespace

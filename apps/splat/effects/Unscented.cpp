@@ -15,7 +15,7 @@ Finding detect(const EffectInputs &In) {
 
 const Effect effects::Unscented{.Name = "unscented",
                                 .Kind = EffectKind::Scene,
-                                .What = "each Gaussian as seven points",
+                                .What = "seven sigma points per Gaussian",
                                 .Macro = "USE_UNSCENTED",
                                 .Detect = detect,
                                 .Neutral = false,

@@ -12,7 +12,7 @@ Finding detect(const EffectInputs &In) {
   for (const Effect *Band : {&effects::Sh1, &effects::Sh2, &effects::Sh3})
     if (Band->Detect(In).Needed)
       return {true, fmt::format("{} needs the direction", Band->Name)};
-  return {false, "no band above the constant one"};
+  return {false, "SH degree 0 only"};
 }
 
 } // namespace
@@ -20,7 +20,7 @@ Finding detect(const EffectInputs &In) {
 const Effect effects::ViewColor{
     .Name = "view-color",
     .Kind = EffectKind::Scene,
-    .What = "the direction's length and quotients, for any band",
+    .What = "normalization of the view direction, for any degree above 0",
     .Macro = "USE_VIEW_COLOR",
     .Detect = detect};
 

@@ -13,25 +13,25 @@ constexpr unsigned Widest = 4096;
 
 Finding detect(const EffectInputs &In) {
   if (In.Options.Through != Spread::Jacobian || In.Options.Rolling)
-    return {false, "not for the unscented transform and rolling shutters",
+    return {false, "not with the unscented transform or rolling shutters",
             false};
   const bool IsWide = In.Facts.Side > Widest;
   return {IsWide,
-          fmt::format("a side of {} pixels, more than {} need windows",
+          fmt::format("a side of {} pixels; more than {} need windows",
                       In.Facts.Side, Widest),
           IsWide};
 }
 
 } // namespace
 
-const Effect effects::Windows{.Name = "windows",
-                              .Kind = EffectKind::Scene,
-                              .What =
-                                  "records by windows of the picture, whose "
-                                  "means are places in a window",
-                              .Macro = "USE_WINDOWS",
-                              .Detect = detect,
-                              .Neutral = false,
-                              .ByCamera = true};
+const Effect effects::Windows{
+    .Name = "windows",
+    .Kind = EffectKind::Scene,
+    .What =
+        "records per window of the picture, with means relative to the window",
+    .Macro = "USE_WINDOWS",
+    .Detect = detect,
+    .Neutral = false,
+    .ByCamera = true};
 
 } // namespace vorion::splat

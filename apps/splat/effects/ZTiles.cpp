@@ -18,7 +18,8 @@ Finding detect(const EffectInputs &In) {
 
 const Effect effects::ZTiles{.Name = "z-tiles",
                              .Kind = EffectKind::Machine,
-                             .What = "a command a part, and the kernel merge",
+                             .What =
+                                 "a command per segment, and the kernel merge",
                              .Macro = "USE_ZTILES",
                              .Detect = detect};
 

@@ -21,11 +21,12 @@ std::vector<double> levels(const Photo &P) {
 Expected<Photo> rounded(const Camera &C, const Image &I) {
   // As a byte a NaN would be black.
   if (std::ranges::any_of(I.Render, [](float V) { return std::isnan(V); }))
-    return Error{"",
-                 fmt::format("view {} of the scene has values that are no "
-                             "numbers, expected a picture",
-                             printable(C.Name)),
-                 ExitCode::GuestFailed};
+    return Error{
+        "",
+        fmt::format(
+            "view {} of the scene has non-finite values, expected a picture",
+            printable(C.Name)),
+        ExitCode::GuestFailed};
   Photo P{I.Width, I.Height, std::vector<uint8_t>(I.Render.size())};
   std::ranges::transform(I.Render, P.Rgb.begin(), toByte);
   return P;

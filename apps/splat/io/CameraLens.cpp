@@ -63,7 +63,7 @@ private:
       fail(fmt::format("key {} is {}, expected a camera model's name, {}", Key,
                        printable(jsonText(Value)), knownLensModels()));
     else if (!Known)
-      fail(fmt::format("key {} calls for the camera model {}, which is not "
+      fail(fmt::format("key {} selects the camera model {}, which is not "
                        "supported, expected {}",
                        Key, printable(jsonText(Value)), knownLensModels()));
     // Which numbers a distorted pinhole may have depends on what it is called.
@@ -82,9 +82,9 @@ private:
         continue;
       const LensModel *Model = modelOf(Key, *Value);
       if (By && Model && Model != Optics.Model)
-        fail(fmt::format("keys {} and {} call for two camera models, expected "
-                         "one",
-                         By, Key));
+        fail(fmt::format(
+            "keys {} and {} select different camera models, expected one model",
+            By, Key));
       By = Key;
       if (Model) {
         Optics.Model = Model;
@@ -106,8 +106,8 @@ private:
     else if (!Value->get<bool>())
       return;
     else if (HasName && Optics.Model != &Model)
-      fail(fmt::format("key {} calls for {}, but the camera's model is {}, "
-                       "expected one of both",
+      fail(fmt::format("key {} selects {}, but the camera model is {}, "
+                       "expected consistent keys",
                        Model.Flag, Model.Name, Called));
     else if (!HasName)
       Called = Model.Name;
@@ -126,16 +126,17 @@ private:
   void set(const char *Key, std::string_view Name, const Json &Value) {
     if (!Value.is_number() ||
         !(std::abs(Value.get<double>()) <= MostLensCoefficient))
-      return fail(fmt::format("key {} is wrong, expected numbers from -{:g} to "
-                              "{:g}",
-                              Key, MostLensCoefficient, MostLensCoefficient));
+      return fail(
+          fmt::format("key {} is invalid, expected numbers from -{:g} to "
+                      "{:g}",
+                      Key, MostLensCoefficient, MostLensCoefficient));
     const double Number = Value.get<double>();
     const auto Place = placeOf(Name);
     if (Place)
       Optics.K[*Place] = Number;
     else if (Number != 0)
-      fail(fmt::format("key {} calls for a distortion by {}, which a camera of "
-                       "model {} does not have, expected 0",
+      fail(fmt::format("key {} sets the distortion coefficient {}, which the "
+                       "camera model {} does not have, expected 0",
                        Key, Name, Called));
   }
 
@@ -156,8 +157,8 @@ private:
       if (!ByOwnName && Place && Optics.K[*Place] != 0 &&
           std::ranges::find(Model.AmbiguousKeys, Name) !=
               Model.AmbiguousKeys.end())
-        fail(fmt::format("key {} means different things to different programs, "
-                         "expected camera_model {} with it, or 0",
+        fail(fmt::format("key {} is ambiguous between programs, expected "
+                         "camera_model {}, or 0",
                          Key, Model.Name));
     }
   }
@@ -186,7 +187,7 @@ private:
         continue;
       if (!Value->is_array() || Value->size() > Names.size())
         return fail(
-            fmt::format("key {} is wrong, expected a list of at most {} "
+            fmt::format("key {} is invalid, expected a list of at most {} "
                         "numbers",
                         Key, Names.size()));
       for (std::size_t I = 0; I < Value->size(); ++I)

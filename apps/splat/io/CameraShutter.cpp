@@ -66,11 +66,12 @@ std::optional<std::string> readShutter(const KeyFinder &Find, Camera &C) {
   if (Moments) {
     const auto Read = momentsOf(*Moments);
     if (!Read)
-      return fmt::format("key rolling_shutter is wrong, expected start, across "
-                         "and down from -{:g} to {:g}, GLOBAL, or ROLLING_ "
-                         "with TOP_TO_BOTTOM, BOTTOM_TO_TOP, LEFT_TO_RIGHT or "
-                         "RIGHT_TO_LEFT",
-                         MostShutterMoment, MostShutterMoment);
+      return fmt::format(
+          "key rolling_shutter is invalid, expected start, across "
+          "and down from -{:g} to {:g}, GLOBAL, or ROLLING_ "
+          "with TOP_TO_BOTTOM, BOTTOM_TO_TOP, LEFT_TO_RIGHT or "
+          "RIGHT_TO_LEFT",
+          MostShutterMoment, MostShutterMoment);
     S.Start = (*Read)[0];
     S.Across = (*Read)[1];
     S.Down = (*Read)[2];
@@ -79,23 +80,25 @@ std::optional<std::string> readShutter(const KeyFinder &Find, Camera &C) {
   if (const Json *J = Has("rolling_motion")) {
     const auto Read = threeOf(*J, MostMotion);
     if (!Read)
-      return fmt::format("key rolling_motion is wrong, expected three numbers "
-                         "from -{:g} to {:g}",
-                         MostMotion, MostMotion);
+      return fmt::format(
+          "key rolling_motion is invalid, expected three numbers "
+          "from -{:g} to {:g}",
+          MostMotion, MostMotion);
     S.Motion = *Read;
   }
   if (const Json *J = Has("rolling_turn")) {
     const auto Read = threeOf(*J, MostShutterTurn);
     if (!Read ||
         std::hypot((*Read)[0], (*Read)[1], (*Read)[2]) > MostShutterTurn)
-      return "key rolling_turn is wrong, expected an axis times an angle of at "
+      return "key rolling_turn is invalid, expected an axis times an angle of "
+             "at "
              "most pi / 2";
     S.Turn = *Read;
   }
   const bool Moves = S.Motion != Three{} || S.Turn != Three{};
   if (Moves && !Moments)
-    return "keys rolling_motion and rolling_turn without rolling_shutter, "
-           "expected the moments of rows, too";
+    return "keys rolling_motion and rolling_turn need rolling_shutter, "
+           "expected the exposure times of rows";
   if (Moves)
     C.Optics.Shutter = S;
   return std::nullopt;

@@ -28,9 +28,9 @@ public:
 
   Expected<Camera> read() {
     if (!Record.is_object())
-      return Error{Path, fmt::format("record {} is no object, expected a "
-                                     "camera",
-                                     Index)};
+      return Error{
+          Path,
+          fmt::format("record {} is not an object, expected a camera", Index)};
     Camera C;
     if (const Json *Name = key("img_name", "a string")) {
       if (Name->is_string())
@@ -90,7 +90,7 @@ private:
                                    : fmt::format("view {}: {}", View, What)};
   }
   void wrong(const char *Key, const std::string &Wanted) {
-    fail(fmt::format("key {} is wrong, expected {}", Key, Wanted));
+    fail(fmt::format("key {} is invalid, expected {}", Key, Wanted));
   }
 
   const Json *key(const char *Key, const std::string &Wanted) {
@@ -248,8 +248,8 @@ static Expected<Camera> cameraNamed(const std::string &Path,
     return *Meant.front();
   if (!Meant.empty())
     return Error{Path,
-                 fmt::format("view {} may be {} (number {}) or {} (number {}), "
-                             "expected what only one is called",
+                 fmt::format("view {} is ambiguous: {} (number {}) or {} "
+                             "(number {}), expected a unique name or number",
                              View, Meant[0]->Name, Meant[0]->Id, Meant[1]->Name,
                              Meant[1]->Id),
                  ExitCode::Usage};

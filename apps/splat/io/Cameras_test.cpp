@@ -123,36 +123,36 @@ TEST(Cameras, WhatIsNotHereIsRefusedByName) {
         << Keys << ": " << With(Keys);
   };
   EXPECT_EQ(With({{"skew", 0.5}}),
-            "view front: key skew calls for skewed pixels, which is not "
-            "supported, expected what docs/cameras.md lists");
+            "view front: key skew requires skewed pixels, which is not "
+            "supported, expected the features in docs/cameras.md");
   Expect({{"distortion", {0, 0, 1e-3}}}, "lens distortion");
   Expect({{"distortion_params", {{"k1", 0.1}}}}, "lens distortion");
   Expect({{"rolling_shutter_time", 0.1}}, "a rolling shutter by velocities");
   Expect({{"rolling_shutter", "SIDEWAYS"}, {"rolling_turn", {0, 1, 0}}},
-         "key rolling_shutter is wrong, expected start, across and down");
-  Expect({{"rolling_shutter", {0, 0, 1e3}}}, "key rolling_shutter is wrong");
+         "key rolling_shutter is invalid, expected start, across and down");
+  Expect({{"rolling_shutter", {0, 0, 1e3}}}, "key rolling_shutter is invalid");
   Expect({{"rolling_shutter", {0, 0, 1}}, {"rolling_motion", {0, 0}}},
-         "key rolling_motion is wrong, expected three numbers");
+         "key rolling_motion is invalid, expected three numbers");
   Expect({{"rolling_shutter", {0, 0, 1}}, {"rolling_turn", {0, 1.2, 1.2}}},
-         "key rolling_turn is wrong, expected an axis times an angle");
-  Expect({{"rolling_turn", {0, 1, 0}}}, "without rolling_shutter");
+         "key rolling_turn is invalid, expected an axis times an angle");
+  Expect({{"rolling_turn", {0, 1, 0}}}, "need rolling_shutter");
   Expect({{"camera_model", "FOV"}},
-         "key camera_model calls for the camera model \"FOV\", which is not "
+         "key camera_model selects the camera model \"FOV\", which is not "
          "supported, expected PINHOLE, OPENCV");
   Expect({{"camera_model", "THIN_PRISM_FISHEYE"}}, "THIN_PRISM_FISHEYE");
-  Expect({{"k4", 0.1}}, "means different things to different programs");
-  Expect({{"k1", "x"}}, "key k1 is wrong, expected numbers from -1e+06");
-  Expect({{"k1", 1e7}}, "key k1 is wrong");
+  Expect({{"k4", 0.1}}, "is ambiguous between programs");
+  Expect({{"k1", "x"}}, "key k1 is invalid, expected numbers from -1e+06");
+  Expect({{"k1", 1e7}}, "key k1 is invalid");
   Expect({{"camera_model", "OPENCV_FISHEYE"}, {"p1", 0.1}},
-         "key p1 calls for a distortion by p1, which a camera of model "
+         "key p1 sets the distortion coefficient p1, which the camera model "
          "OPENCV_FISHEYE does not have");
   Expect({{"camera_model", "ORTHOGRAPHIC"}, {"k1", 0.1}}, "expected 0");
   Expect({{"camera_model", "PINHOLE"}, {"is_fisheye", true}},
-         "but the camera's model is PINHOLE, expected one of both");
+         "but the camera model is PINHOLE, expected consistent keys");
   Expect({{"camera_model", "OPENCV"}, {"is_fisheye", true}},
-         "but the camera's model is OPENCV, expected one of both");
+         "but the camera model is OPENCV, expected consistent keys");
   Expect({{"camera_model", "DIVISION"}, {"k1", 0.1}},
-         "key k1 calls for a distortion by k1, which a camera of model "
+         "key k1 sets the distortion coefficient k1, which the camera model "
          "DIVISION does not have");
   Expect({{"camera_model", "radial_fisheye"}, {"p1", 0.1}},
          "model RADIAL_FISHEYE does not have");
@@ -161,11 +161,11 @@ TEST(Cameras, WhatIsNotHereIsRefusedByName) {
   Expect({{"projection_type", {"fisheye"}}},
          "key projection_type is [\"fisheye\"], expected");
   Expect({{"is_fisheye", 1}}, "key is_fisheye is 1, expected true or false");
-  Expect({{"lens_model", "FOV"}}, "key lens_model calls for the camera model");
+  Expect({{"lens_model", "FOV"}}, "key lens_model selects the camera model");
   Expect({{"camera_model", "OPENCV"}, {"camera_type", "equirectangular"}},
-         "keys camera_model and camera_type call for two camera models");
+         "keys camera_model and camera_type select different camera models");
   Expect({{"dist_coeffs", std::vector<double>(13)}}, "at most 12 numbers");
-  Expect({{"dist_coeffs", {1, nullptr}}}, "key dist_coeffs is wrong");
+  Expect({{"dist_coeffs", {1, nullptr}}}, "key dist_coeffs is invalid");
   for (const nlohmann::json &Nothing : std::initializer_list<nlohmann::json>{
            {{"k1", 0}},
            {{"distortion", {0, 0.0, -0.0, 0}}},
@@ -236,7 +236,7 @@ TEST(Cameras, WrongValuesAreNamed) {
     auto R = record();
     R[Key] = Value;
     const auto What = errorOf(Folder, nlohmann::json::array({R}).dump());
-    EXPECT_TRUE(What.find(fmt::format("key {} is wrong, expected", Key)) !=
+    EXPECT_TRUE(What.find(fmt::format("key {} is invalid, expected", Key)) !=
                 std::string::npos)
         << What << " for " << Key << " = " << Value.dump();
   };
@@ -283,12 +283,13 @@ TEST(Cameras, AViewThatSeveralMayBeSaysWhich) {
     const auto C = readCamera(File, View);
     return C ? std::to_string(C->Id) : C.error().What;
   };
-  EXPECT_EQ(Of("1"), "view 1 may be left/1.jpg (number 2) or right/1.jpg "
-                     "(number 3), expected what only one is called");
-  EXPECT_EQ(Of("2"), "view 2 may be left/1.jpg (number 2) or 2.png (number 4), "
-                     "expected what only one is called");
-  EXPECT_EQ(Of("2.png"), "view 2.png may be 2.png (number 4) or 2.png (number "
-                         "5), expected what only one is called");
+  EXPECT_EQ(Of("1"),
+            "view 1 is ambiguous: left/1.jpg (number 2) or right/1.jpg (number "
+            "3), expected a unique name or number");
+  EXPECT_EQ(Of("2"), "view 2 is ambiguous: left/1.jpg (number 2) or 2.png "
+                     "(number 4), expected a unique name or number");
+  EXPECT_EQ(Of("2.png"), "view 2.png is ambiguous: 2.png (number 4) or 2.png "
+                         "(number 5), expected a unique name or number");
   EXPECT_EQ(Of("right/1.jpg"), "3");
   EXPECT_EQ(Of("5"), "5");
 }
@@ -299,9 +300,9 @@ TEST(Cameras, WhatIsNoCameraListIsAnError) {
   EXPECT_NE(errorOf(Folder, "[{]").find("not JSON"), std::string::npos);
   EXPECT_NE(errorOf(Folder, "{}").find("array of cameras"), std::string::npos);
   EXPECT_NE(errorOf(Folder, "[]").find("array of cameras"), std::string::npos);
-  EXPECT_NE(errorOf(Folder, "[1]").find("record 0 is no object"),
+  EXPECT_NE(errorOf(Folder, "[1]").find("record 0 is not an object"),
             std::string::npos);
-  EXPECT_NE(errorOf(Folder, std::string(100000, '[')).find("256 deep"),
+  EXPECT_NE(errorOf(Folder, std::string(100000, '[')).find("deeper than 256"),
             std::string::npos);
   const std::string Good = nlohmann::json::array({record()}).dump();
   for (std::size_t Size = 0; Size < Good.size(); ++Size)

@@ -29,7 +29,7 @@ public:
   bool read(char Into[], int Count) override {
     if (Count < 0 || At > File.size() ||
         static_cast<std::size_t>(Count) > File.size() - At)
-      throw std::runtime_error("the file ends early");
+      throw std::runtime_error("the file is truncated");
     std::memcpy(Into, File.data() + At, static_cast<std::size_t>(Count));
     At += static_cast<std::size_t>(Count);
     return At < File.size();
@@ -105,9 +105,8 @@ std::optional<std::string> channelRefusal(const Imf::Header &H) {
   for (const char *Name : {"R", "G", "B", "A", "Y", "Z"})
     if (const Imf::Channel *C = H.channels().findChannel(Name);
         C && (C->xSampling != 1 || C->ySampling != 1))
-      return fmt::format("channel {} has not a value for each pixel, expected "
-                         "one",
-                         Name);
+      return fmt::format(
+          "channel {} is subsampled, expected one value per pixel", Name);
   return {};
 }
 
@@ -126,13 +125,13 @@ std::optional<std::string> attributeRefusal(Bytes File, std::size_t At) {
       return {};
     Text(); // of its type
     if (File.size() - At < sizeof(int32_t))
-      return "ends within its header, expected a whole picture";
+      return "truncated in its header, expected a complete picture";
     const auto Size = load<int32_t>(File, At);
     At += sizeof(Size);
     if (Size < 0 || static_cast<std::size_t>(Size) > File.size() - At)
-      return fmt::format("attribute {} claims {} bytes of {} that are left, "
-                         "expected no more",
-                         printable(Name), Size, File.size() - At);
+      return fmt::format(
+          "attribute {} has {} bytes, but {} are left, expected at most those",
+          printable(Name), Size, File.size() - At);
     At += static_cast<std::size_t>(Size);
   }
 }
@@ -143,7 +142,7 @@ std::optional<std::string> refusal(Bytes File) {
   constexpr std::size_t Begin = 2 * sizeof(int32_t);
   constexpr int SeveralParts = 0x1000;
   if (File.size() < Begin)
-    return "ends within its header, expected a whole picture";
+    return "truncated in its header, expected a complete picture";
   int Version = load<int32_t>(File, sizeof(int32_t));
   BytesIn Stream(File);
   Stream.seekg(Begin);
@@ -252,8 +251,8 @@ Expected<ExactImage> decodeExr(const std::string &Where, Bytes File) {
   try {
     return decode(Where, File);
   } catch (const std::exception &E) {
-    return Error{Where, fmt::format("no OpenEXR picture ({}), expected a whole "
-                                    "one that is not deep",
+    return Error{Where, fmt::format("not an OpenEXR picture ({}), expected a "
+                                    "complete picture without deep data",
                                     printable(E.what()))};
   }
 }

@@ -55,8 +55,9 @@ Expected<GzipReader> GzipReader::open(const std::string &Where, Bytes File) {
 }
 
 Error GzipReader::damaged() const {
-  return {Where, fmt::format("damaged gzip stream ({}), expected a whole one",
-                             Stream->msg ? Stream->msg : "it ends early")};
+  return {Where,
+          fmt::format("damaged gzip stream ({}), expected a complete stream",
+                      Stream->msg ? Stream->msg : "truncated")};
 }
 
 Expected<std::vector<std::byte>> GzipReader::read(std::size_t Size) {
@@ -88,12 +89,13 @@ Expected<Success> GzipReader::finish() {
   if (!More)
     return More.error();
   if (!More->empty())
-    return Error{Where, "the gzip stream goes on, expected no more than its "
-                        "header says"};
+    return Error{
+        Where, "the gzip stream is too long, expected the size in its header"};
   if (Stream->avail_in != 0)
-    return Error{Where, fmt::format("{} after the gzip stream, expected the "
-                                    "file's end",
-                                    counted(Stream->avail_in, "byte"))};
+    return Error{
+        Where,
+        fmt::format("{} after the gzip stream, expected the end of the file",
+                    counted(Stream->avail_in, "byte"))};
   return Success{};
 }
 

@@ -94,7 +94,7 @@ Expected<ExactImage> readPfm(const std::string &Path) {
     constexpr const char *Wanted = "a colour PFM: `PF`, width, height, scale";
     if (fileKindOf(*File) != FileKind::Pfm)
       return otherKind(Path, *File, Wanted, "not a picture");
-    return Error{Path, fmt::format("another PFM, expected {}", Wanted)};
+    return Error{Path, fmt::format("unsupported PFM, expected {}", Wanted)};
   }
   if (!(Scale < 0))
     return Error{Path, "big-endian PFM, expected a negative scale"};
@@ -124,7 +124,7 @@ Expected<ExactImage> readImageNpz(const std::string &Path) {
   if (!Real || R->Shape.size() != 3 || R->Shape[2] != 3 || R->Shape[0] < 1 ||
       R->Shape[1] < 1 || R->Shape[0] > MaxPictureSide ||
       R->Shape[1] > MaxPictureSide)
-    return Error{Path, "array `render` is no picture, expected floats of "
+    return Error{Path, "array `render` is not a picture, expected floats of "
                        "shape (height, width, 3)"};
   ExactImage I;
   I.Height = static_cast<int>(R->Shape[0]);
@@ -208,7 +208,7 @@ Expected<Success> writeDepth(const std::string &Path, const DepthMap &D) {
   if (Path.ends_with(".exr"))
     return writeEncoded(Path, encodeExr(D));
   if (!Path.ends_with(".npz"))
-    return Error{Path, "unknown ending, expected .pfm, .exr or .npz",
+    return Error{Path, "unknown file extension, expected .pfm, .exr or .npz",
                  ExitCode::Usage};
   const auto H = static_cast<std::size_t>(D.Height);
   const auto W = static_cast<std::size_t>(D.Width);

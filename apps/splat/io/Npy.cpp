@@ -201,8 +201,9 @@ Expected<NpyHeader> parseNpyHeader(const std::string &Where, Bytes Start) {
     return otherKind(Where, Start, "a .npy array, which NumPy writes",
                      "not a .npy array");
   if (All.size() < 10)
-    return Error{Where, "the .npy array ends within its header, expected a "
-                        "whole one"};
+    return Error{
+        Where,
+        "the .npy array is truncated in its header, expected a complete array"};
   const int Major = static_cast<unsigned char>(All[6]);
   if (Major < 1 || Major > 3)
     return Error{Where, fmt::format(".npy version {}, expected 1 to 3", Major)};
@@ -216,7 +217,7 @@ Expected<NpyHeader> parseNpyHeader(const std::string &Where, Bytes Start) {
                                     "most {}",
                                     Length, MostHeader)};
   if (All.size() < Begin || All.size() - Begin < Length)
-    return Error{Where, "ends within the .npy header"};
+    return Error{Where, "is truncated in the .npy header"};
   const std::string_view Header = All.substr(Begin, Length);
 
   const auto Descr = valueOf(Header, "descr");

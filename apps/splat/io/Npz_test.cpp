@@ -106,7 +106,7 @@ TEST(Npy, EachKindOfDamageHasItsMessage) {
   };
   const std::string Four(4, '\0');
   Expect("", "an empty file, expected a .npy array");
-  Expect("\x93NUMPY\1", "ends within its header");
+  Expect("\x93NUMPY\1", "is truncated in its header");
   Expect("\x93NUMPX1234567890", "expected a .npy array");
   Expect(std::string(16, '\1'), "not a .npy array");
   Expect(std::string("\x93NUMPY\7\0\0\0", 10), ".npy version 7");
@@ -186,9 +186,9 @@ TEST(Npz, PicturesOfTheWrongShapeAreErrors) {
   const auto Four = NpyArray::of({2, 2}, std::vector<float>(4));
   const auto Picture = NpyArray::of({1, 2, 3}, std::vector<float>(6));
   Expect({{"other", Picture}}, "no array `render`");
-  Expect({{"render", Four}}, "is no picture");
+  Expect({{"render", Four}}, "is not a picture");
   Expect({{"render", NpyArray::of({0, 2, 3}, std::vector<float>())}},
-         "is no picture");
+         "is not a picture");
   Expect({{"render", Picture}, {"alpha", Four}}, "size of `render`");
 }
 

@@ -20,8 +20,8 @@ Error noPhoto(const std::string &Where, Bytes File) {
 }
 
 Error damaged(const std::string &Where, const char *Kind, const char *Why) {
-  return {Where, fmt::format("damaged {} ({}), expected a whole one", Kind,
-                             printable(Why))};
+  return {Where, fmt::format("damaged {} ({}), expected a complete picture",
+                             Kind, printable(Why))};
 }
 
 /// libpng's simplified reader, and its release.
@@ -111,7 +111,7 @@ Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
     if (!readJpegHeader(J, File, H))
       return damaged(Where, "JPEG", tjGetErrorStr2(J.get()));
     if (H.Colours == TJCS_CMYK || H.Colours == TJCS_YCCK)
-      return Error{Where, "a CMYK JPEG, expected one in colour or grey"};
+      return Error{Where, "a CMYK JPEG, expected colour or grey"};
     S = {H.Width, H.Height};
     break;
   }
@@ -125,9 +125,10 @@ Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
   }
   if (S.Width < 1 || S.Height < 1 || S.Width > MaxImageSize ||
       S.Height > MaxImageSize)
-    return Error{Where, fmt::format("a picture of unusual size, expected sides "
-                                    "of 1 to {} pixels",
-                                    MaxImageSize)};
+    return Error{Where,
+                 fmt::format("an unsupported size of picture, expected sides "
+                             "of 1 to {} pixels",
+                             MaxImageSize)};
   return S;
 }
 

@@ -52,9 +52,10 @@ public:
         return Passed;
     }
     if (At != File.size())
-      return Error{Where, fmt::format("{} after the last element, expected "
-                                      "the file's end",
-                                      counted(File.size() - At, "byte"))};
+      return Error{
+          Where,
+          fmt::format("{} after the last element, expected the end of the file",
+                      counted(File.size() - At, "byte"))};
     return Success{};
   }
 
@@ -76,8 +77,8 @@ private:
     // Division, since an absurd count times the stride need not fit.
     if (E.Stride == 0 || Left / E.Stride < E.Count)
       return Error{Where,
-                   fmt::format("the file is cut off: {} bytes left for element "
-                               "{}, expected {} rows of {} bytes",
+                   fmt::format("truncated: {} bytes left for element {}, "
+                               "expected {} rows of {} bytes",
                                Left, printable(E.Name), E.Count, E.Stride)};
     At += E.Count * E.Stride;
     return Success{};
@@ -88,9 +89,10 @@ private:
       for (const PlyProperty &P : E.Properties) {
         const auto Numbers = P.CountType ? count(*P.CountType) : 1;
         if (!Numbers || (File.size() - At) / sizeOf(P.Type) < *Numbers)
-          return Error{Where, fmt::format("the file ends in row {} of element "
-                                          "{}, expected {} rows",
-                                          I, printable(E.Name), E.Count)};
+          return Error{
+              Where,
+              fmt::format("truncated in row {} of element {}, expected {} rows",
+                          I, printable(E.Name), E.Count)};
         At += *Numbers * sizeOf(P.Type);
       }
     return Success{};
@@ -131,17 +133,18 @@ public:
     for (PlyElement &E : Header.Elements) {
       E.Start = Result.size();
       if (E.Properties.empty())
-        return error(fmt::format("element {} has no property, expected one",
-                                 printable(E.Name)));
+        return error(
+            fmt::format("element {} has no property, expected at least one",
+                        printable(E.Name)));
       for (std::size_t I = 0; I < E.Count; ++I)
         for (const PlyProperty &P : E.Properties)
           if (auto Taken = take(E, I, P); !Taken)
             return Taken.error();
     }
     if (const auto Word = next(); !Word.empty())
-      return error(fmt::format("`{}` after the last element, expected the "
-                               "file's end",
-                               printable(Word)));
+      return error(fmt::format(
+          "`{}` after the last element, expected the end of the file",
+          printable(Word)));
     return std::move(Result);
   }
 
@@ -192,12 +195,12 @@ private:
   Error notANumber(std::string_view Word, const PlyElement &E, std::size_t I,
                    std::string_view What) const {
     if (Word.empty())
-      return error(fmt::format("the file ends in row {} of element {}, "
-                               "expected {} rows",
-                               I, printable(E.Name), E.Count));
-    return error(fmt::format("`{}` in row {} of element {}, expected {}, a "
-                             "number of the type that the header says",
-                             printable(Word), I, printable(E.Name), What));
+      return error(
+          fmt::format("truncated in row {} of element {}, expected {} rows", I,
+                      printable(E.Name), E.Count));
+    return error(fmt::format(
+        "`{}` in row {} of element {}, expected {}, the type in the header",
+        printable(Word), I, printable(E.Name), What));
   }
 
   const std::string &Where;

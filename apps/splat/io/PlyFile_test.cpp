@@ -119,14 +119,14 @@ TEST(PlyFile, ErrorsNameTheLine) {
                              "end_header\n";
   EXPECT_EQ(errorOf(Header + "1 2\n1 2\n"), "");
   EXPECT_EQ(errorOf(Header + "1 2\nx 2\n"),
-            "f:8: `x` in row 1 of element vertex, expected property x, a "
-            "number of the type that the header says");
+            "f:8: `x` in row 1 of element vertex, expected property x, the "
+            "type in the header");
   EXPECT_EQ(errorOf(Header + "1 256\n1 2\n").substr(0, 11), "f:7: `256` ");
   EXPECT_EQ(errorOf(Header + "1 -1\n1 2\n").substr(0, 10), "f:7: `-1` ");
   EXPECT_EQ(errorOf(Header + "1 2\n1\n"),
-            "f:9: the file ends in row 1 of element vertex, expected 2 rows");
+            "f:9: truncated in row 1 of element vertex, expected 2 rows");
   EXPECT_EQ(errorOf(Header + "1 2\n1 2\n\n5"),
-            "f:10: `5` after the last element, expected the file's end");
+            "f:10: `5` after the last element, expected the end of the file");
   EXPECT_EQ(errorOf("ply\nformat ascii 2.0\n"),
             "f:2: format is `ascii`, expected binary_little_endian, "
             "binary_big_endian or ascii, and version 1.0");

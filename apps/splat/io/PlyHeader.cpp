@@ -65,7 +65,7 @@ public:
     while (true) {
       const auto Line = nextLine();
       if (!Line)
-        return error("header ends early, expected `end_header`");
+        return error("header is truncated, expected `end_header`");
       const auto W = words(*Line);
       if (W.empty() || W[0] == "obj_info")
         continue;
@@ -144,7 +144,7 @@ private:
     const auto [Read, Status] =
         std::from_chars(W[2].begin(), W[2].end(), E->Count);
     if (Status != std::errc() || Read != W[2].end())
-      return fmt::format("{} count `{}` is no number, expected 0 or more",
+      return fmt::format("{} count `{}` is not a number, expected 0 or more",
                          printable(W[1]), printable(W[2]));
     return std::nullopt;
   }

@@ -80,8 +80,8 @@ Expected<CameraWay> wayBetween(const CameraPlace &From, const CameraPlace &To) {
   W.Shutter.Turn = turnOf(Between);
   // Half a turn has two axes.
   if (!(length(W.Shutter.Turn) <= MostShutterTurn))
-    return Error{"", fmt::format("a camera that turns by {:.0f} degrees while "
-                                 "it exposes, expected at most 90",
+    return Error{"", fmt::format("a camera that rotates by {:.0f} degrees "
+                                 "during the exposure, expected at most 90",
                                  length(W.Shutter.Turn) * 180 / M_PI)};
   W.Middle = placeAt(From, {.Turn = W.Shutter.Turn}, 1);
   const Matrix3 Back = transposed(W.Middle.Rotation);

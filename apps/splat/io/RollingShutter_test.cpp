@@ -47,9 +47,8 @@ TEST(RollingShutter, AWayGoesEvenlyFromOnePlaceToTheOther) {
 TEST(RollingShutter, LargeTurnsAreRefused) {
   const auto Way = wayBetween(turnedAbout(2, 0, {}), turnedAbout(2, 2, {}));
   ASSERT_FALSE(Way);
-  EXPECT_EQ(Way.error().What,
-            "a camera that turns by 115 degrees while it exposes, expected at "
-            "most 90");
+  EXPECT_EQ(Way.error().What, "a camera that rotates by 115 degrees during the "
+                              "exposure, expected at most 90");
 }
 
 TEST(RollingShutter, FilesKeepItToTheBit) {

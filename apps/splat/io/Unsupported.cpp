@@ -87,8 +87,8 @@ std::optional<std::string_view> unsupportedProperty(std::string_view Name) {
 std::optional<std::string> unsupportedIn(const nlohmann::json &Record) {
   for (const auto &[Key, Value] : Record.items())
     if (const auto Meaning = find(CameraKeys, Key); Meaning && !isEmpty(Value))
-      return fmt::format("key {} calls for {}, which is not supported, "
-                         "expected what docs/cameras.md lists",
+      return fmt::format("key {} requires {}, which is not supported, expected "
+                         "the features in docs/cameras.md",
                          printable(Key), *Meaning);
   return std::nullopt;
 }

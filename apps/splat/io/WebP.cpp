@@ -40,7 +40,7 @@ Expected<Success> decodeWebPInto(const std::string &Where, Bytes File,
   if (!WebPDecodeRGBAInto(dataOf(File), File.size(),
                           reinterpret_cast<uint8_t *>(P.Rgba.data()),
                           P.Rgba.size(), static_cast<int>(4 * P.Width)))
-    return Error{Where, "damaged WebP picture, expected a whole one"};
+    return Error{Where, "damaged WebP picture, expected a complete picture"};
   return Success{};
 }
 
@@ -54,7 +54,7 @@ Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
 }
 
 Expected<std::string> encodeWebP(const Plane &P) {
-  const Error Failed{"", fmt::format("cannot make a WebP of {}x{} pixels, "
+  const Error Failed{"", fmt::format("cannot encode a WebP of {}x{} pixels, "
                                      "expected sides of at most {}",
                                      P.Width, P.Height, WEBP_MAX_DIMENSION)};
   WebPConfig Config;

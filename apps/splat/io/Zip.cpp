@@ -185,12 +185,12 @@ makeZip(const std::string &Where,
   zip_stat_t Stat;
   if (zip_source_stat(Memory.get(), &Stat) != 0 ||
       zip_source_open(Memory.get()) != 0)
-    return Error{Where, "cannot read the archive back", ExitCode::LimitReached};
+    return Error{Where, "cannot read back the archive", ExitCode::LimitReached};
   std::string Out(Stat.size, '\0');
   const zip_int64_t Got = zip_source_read(Memory.get(), Out.data(), Out.size());
   zip_source_close(Memory.get());
   if (Got != static_cast<zip_int64_t>(Out.size()))
-    return Error{Where, "cannot read the archive back", ExitCode::LimitReached};
+    return Error{Where, "cannot read back the archive", ExitCode::LimitReached};
   return Out;
 }
 

@@ -25,9 +25,10 @@ Expected<std::vector<std::byte>> unpackZstd(const std::string &Where,
     const std::size_t Read = In.pos, Had = To.pos;
     const std::size_t Left = ZSTD_decompressStream(Stream.get(), &To, &In);
     if (ZSTD_isError(Left) != 0)
-      return Error{Where, fmt::format("damaged zstd frame ({}), expected a "
-                                      "whole one",
-                                      ZSTD_getErrorName(Left))};
+      return Error{
+          Where,
+          fmt::format("damaged zstd frame ({}), expected a complete frame",
+                      ZSTD_getErrorName(Left))};
     if (Left == 0)
       break;
     if (To.pos == To.size && Out.size() < Most) {

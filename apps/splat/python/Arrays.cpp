@@ -47,7 +47,7 @@ std::vector<float> valuesOf(const FloatArray &A, const std::string &Name,
                   ExitCode::Usage});
   if (!std::all_of(A.data(), A.data() + A.size(),
                    [](float V) { return std::isfinite(V); }))
-    throw Failed({"", Name + " holds a NaN or an infinity, expected finite "
+    throw Failed({"", Name + " has a NaN or an infinity, expected finite "
                              "values"});
   return {A.data(), A.data() + A.size()};
 }

@@ -38,7 +38,7 @@ Camera made(std::string Name, int Width, int Height,
     if (!std::isfinite(Number))
       Refuse("world_to_camera: expected finite numbers");
   if (!isRotation(Rotation))
-    Refuse("world_to_camera is no rotation with a translation, expected "
+    Refuse("world_to_camera is not a rotation with a translation, expected "
            "orthonormal axes with determinant +1");
   Camera C;
   C.Name = std::move(Name);

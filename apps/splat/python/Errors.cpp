@@ -21,13 +21,12 @@ PyObject *NoOther = nullptr;
 const std::array<ErrorClass, 4> &classes() {
   static const std::array<ErrorClass, 4> All{
       {{ExitCode::Usage, "UsageError",
-        "What was asked for does not fit: an option, a shape, a size.",
+        "An argument is invalid: an option, a shape, a size.",
         PyExc_ValueError},
        {ExitCode::InputFile, "InputError",
-        "A file cannot be read, or what it holds is no scene or no camera.",
-        NoOther},
+        "A file cannot be read, or is not a scene or camera file.", NoOther},
        {ExitCode::Trap, "TrapError",
-        "A kernel met a fault on the simulated machine.", NoOther},
+        "A kernel trapped on the simulated machine.", NoOther},
        {ExitCode::LimitReached, "LimitError",
         "The scene or the picture is too large for the machine.",
         PyExc_MemoryError}}};

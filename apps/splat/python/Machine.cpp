@@ -56,11 +56,11 @@ void checkProcess() {
   if (OpenedIn != 0 && OpenedIn != ::getpid())
     throw Failed(
         {"",
-         fmt::format("process {} was forked from process {} after that had "
-                     "opened a machine, whose threads it does not have, "
-                     "expected a process of its own (the start methods spawn "
-                     "and forkserver of multiprocessing)",
-                     ::getpid(), OpenedIn),
+         fmt::format(
+             "process {} was forked from process {} after that had opened a "
+             "machine, and has none of its threads, expected a new process "
+             "(the start methods spawn and forkserver of multiprocessing)",
+             ::getpid(), OpenedIn),
          ExitCode::Usage});
 }
 

@@ -160,9 +160,8 @@ measureEffects(const DeviceOpener &Open, const std::string &KernelFolder,
 
 std::string toString(const EffectCosts &Costs) {
   std::string Text = fmt::format(
-      "measured: the frame with the effect less the frame without, "
-      "each the first of a process; as asked {} warp "
-      "instructions{}\n",
+      "measured: the frame with the effect minus the frame without it, each "
+      "the first frame of a process; as requested {} warp instructions{}\n",
       Costs.Instructions,
       Costs.Cycles ? fmt::format(", {} cycles of {}", Costs.Cycles, Costs.On)
                    : "");
@@ -170,7 +169,7 @@ std::string toString(const EffectCosts &Costs) {
     Text +=
         fmt::format("  {:<17}{:<4}", C.Subject->Name, C.Done ? "on" : "off");
     if (!C.Failure.empty()) {
-      Text += fmt::format("not to be told: {}\n", C.Failure);
+      Text += fmt::format("unknown: {}\n", C.Failure);
       continue;
     }
     Text += fmt::format("{} {:+} warp instructions ({:+.2f} %)",
@@ -207,8 +206,8 @@ measureModes(const DeviceOpener &Clocked, const DeviceOpener &Plain,
       return F.error();
     if (F->Cycles == 0)
       return Error{"",
-                   "the frame has no time, expected a Vorion device whose "
-                   "clock runs in all launches",
+                   "the frame has no modelled time, expected a Vorion device "
+                   "with timing on for all launches",
                    ExitCode::Usage};
     Costs.push_back({M, F->Instructions, F->Cycles, F->On, F->Hash, {}});
   }

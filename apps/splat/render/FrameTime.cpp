@@ -280,8 +280,8 @@ std::string frameText(const std::vector<StageReport> &Stages,
       Text += Rows.row(name(S.Kind), *Time);
   Text += Rows.row(What, *Whole);
   const FrameMilliseconds F = frameMilliseconds(Stages, *Whole);
-  return Text + fmt::format("{0} {1:.3f} ms, of it launches {2:.3f} and copies "
-                            "{3:.3f}: {4:.2f} {0}s a second\n",
+  return Text + fmt::format("{0} {1:.3f} ms, of which launches {2:.3f} and "
+                            "copies {3:.3f}: {4:.2f} {0}s per second\n",
                             What, F.all(), F.Launches, F.Copies, 1e3 / F.all());
 }
 
@@ -316,15 +316,14 @@ std::string sequenceText(const SequenceResult &R) {
     Text += Rows.row(name(S.Kind), *stageTime(S));
   Text += Rows.row("all", *T.Sum);
   return Text +
-         fmt::format(
-             "{} in {:.3f} ms: {:.2f} a second, {:.3f} ms from a "
-             "picture's beginning to its end\nbusy: cores {:.3f} ms, "
-             "rasterizers {:.3f}, pixel units {:.3f}; {:.3f} ms beside each "
-             "other, bound {:.3f} ms\n",
-             counted(R.Frames.size(), "picture"), T.Total,
-             1e3 * static_cast<double>(R.Frames.size()) / T.Total,
-             meanOf(T.Latency), T.Cores, T.Rasters, T.Pixels,
-             T.all() - T.kernels(), T.bound());
+         fmt::format("{} in {:.3f} ms: {:.2f} per second, latency {:.3f} ms "
+                     "per picture\nbusy: cores {:.3f} ms, "
+                     "rasterizers {:.3f}, pixel units {:.3f}; {:.3f} ms "
+                     "overlapped, bound {:.3f} ms\n",
+                     counted(R.Frames.size(), "picture"), T.Total,
+                     1e3 * static_cast<double>(R.Frames.size()) / T.Total,
+                     meanOf(T.Latency), T.Cores, T.Rasters, T.Pixels,
+                     T.all() - T.kernels(), T.bound());
 }
 
 } // namespace vorion::splat

@@ -117,10 +117,9 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
         {"", fmt::format("a camera of model {}, expected {}",
                          C.Optics.Model->Name, Options.Optics->Name)});
   if (C.Optics.Shutter && !Options.Rolling)
-    return Launch.fail({"", "a camera with a rolling shutter, expected one of "
-                            "one moment"});
-  const bool IsPinhole =
-      Options.Optics->isPinhole() && !Options.Rolling;
+    return Launch.fail(
+        {"", "a camera with a rolling shutter, expected a global shutter"});
+  const bool IsPinhole = Options.Optics->isPinhole() && !Options.Rolling;
   const auto FailWithout = [&](std::string_view Option, std::string_view Why) {
     Launch.fail(
         {"",
@@ -206,8 +205,7 @@ cl::Buffer Pipeline::cullBlocks() {
 
 /// HAS_LENS of the kernels.
 static bool hasLens(const RenderOptions &O) {
-  return !O.Optics->isPinhole() || O.Through == Spread::Unscented ||
-         O.Rolling;
+  return !O.Optics->isPinhole() || O.Through == Spread::Unscented || O.Rolling;
 }
 
 bool Pipeline::hasMoreThanView() const {

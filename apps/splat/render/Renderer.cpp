@@ -81,7 +81,7 @@ Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
 Expected<Success> build(Launcher &Launch, const RenderPlan &Plan,
                         const Scene &S) {
   if (S.size() > std::numeric_limits<int32_t>::max())
-    return Error{"", "more than 2^31 - 1 Gaussians, whose numbers have 31 bits",
+    return Error{"", "more than 2^31 - 1 Gaussians, whose indices have 31 bits",
                  ExitCode::LimitReached};
   Launch.beginStage(Stage::Build);
   for (const ProgramSpec &Program : Plan.Programs)

@@ -30,9 +30,9 @@ std::optional<std::string_view> after(std::string_view Key,
 
 Error unknown(const std::string &Where, std::string_view Source,
               std::string_view Expected) {
-  return {Where, fmt::format("{} calls for a way of drawing that is not known, "
-                             "expected {}",
-                             printable(Source), Expected)};
+  return {Where,
+          fmt::format("{} selects an unknown rendering mode, expected {}",
+                      printable(Source), Expected)};
 }
 
 /// Takes one comment of those that say something into \p D.
@@ -97,8 +97,8 @@ Expected<Drawing> drawingOfModel(const std::string &Where,
 }
 
 Error flatGaussians(const std::string &Where, std::string_view Source) {
-  return {Where, fmt::format("{} calls for 2D Gaussians (2DGS), which are not "
-                             "supported, expected Gaussians of three axes",
+  return {Where, fmt::format("{} selects 2D Gaussians (2DGS), which are not "
+                             "supported, expected 3D Gaussians",
                              Source)};
 }
 

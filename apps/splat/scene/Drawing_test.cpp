@@ -57,18 +57,16 @@ TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
     const auto D = of({Comment});
     ASSERT_FALSE(D);
     EXPECT_EQ(D.error().Code, ExitCode::InputFile);
-    EXPECT_NE(
-        D.error().What.find("calls for 2D Gaussians (2DGS), which are not "
-                            "supported"),
-        std::string::npos)
+    EXPECT_NE(D.error().What.find("selects 2D Gaussians (2DGS), which are not "
+                                  "supported"),
+              std::string::npos)
         << D.error().What;
   }
   const auto Other = of({" SplatRenderMode: banana\x1b[31m"});
   ASSERT_FALSE(Other);
-  EXPECT_EQ(
-      Other.error().What,
-      "comment SplatRenderMode: banana\\x1b[31m calls for a way of drawing "
-      "that is not known, expected SplatRenderMode: default or mip");
+  EXPECT_EQ(Other.error().What,
+            "comment SplatRenderMode: banana\\x1b[31m selects an unknown "
+            "rendering mode, expected SplatRenderMode: default or mip");
   EXPECT_FALSE(of({" Dilation: much"}));
   EXPECT_FALSE(of({" Dilation: -1"}));
 }
@@ -153,11 +151,11 @@ TEST(Drawing, EveryFormatThatCanSayItIsHeard) {
   ASSERT_TRUE(Default);
   EXPECT_FALSE(Default->DrawnAs.Antialiased);
   const std::pair<Json, const char *> Refused[] = {
-      {{{"model", "2dgs"}}, "model 2dgs calls for 2D Gaussians"},
-      {{{"model", "5dgs"}}, "way of drawing that is not known"},
-      {{{"model", 2}}, "model is no name"},
-      {{{"antialias", "yes"}}, "antialias is no truth value"},
-      {{{"model", "default"}, {"antialias", true}}, "contradict each other"}};
+      {{{"model", "2dgs"}}, "model 2dgs selects 2D Gaussians"},
+      {{{"model", "5dgs"}}, "unknown rendering mode"},
+      {{{"model", 2}}, "model is not a string"},
+      {{{"antialias", "yes"}}, "antialias is not a Boolean"},
+      {{{"model", "default"}, {"antialias", true}}, "are contradictory"}};
   for (const auto &[Extra, Message] : Refused) {
     const auto Bad = Sog(Extra);
     ASSERT_FALSE(Bad) << Message;

@@ -14,14 +14,14 @@ std::string nameHere(FileKind K, Bytes File) {
   if (K == FileKind::Zip)
     return "a zip archive without the meta.json of SOG";
   if (K == FileKind::Json)
-    return "JSON that describes no scene";
+    return "JSON that does not describe a scene";
   return describe(K, File);
 }
 
 /// How the owner of \p File of kind \p K may come to a scene.
 std::string_view sceneAdvice(FileKind K, Bytes File) {
   if (K == FileKind::WebP)
-    return "name SOG's meta.json if this is one of its pictures";
+    return "use the SOG's meta.json if this is one of its pictures";
   if (K == FileKind::Json)
     return "SOG has a meta.json or lod-meta.json, glTF has the key asset";
   switch (useOf(K, File)) {
@@ -41,9 +41,9 @@ std::string_view sceneAdvice(FileKind K, Bytes File) {
            "known";
   case FileUse::Archive:
   case FileUse::Packed:
-    return "unpack it, and name the scene in it";
+    return "unpack it, and use the scene in it";
   case FileUse::Cameras:
-    return "name it with --cameras, and the scene beside it";
+    return "pass it as --cameras, together with a scene";
   default:
     return adviceFor(useOf(K, File));
   }
@@ -83,10 +83,9 @@ Error unknownFile(const std::string &Where) {
   for (const SceneFormatRecord &F : sceneFormats())
     if (F.Format != SceneFormat::Splat && !F.Ending.empty())
       Endings += std::string(F.Ending) + ", ";
-  return {Where,
-          fmt::format("not a scene of a known format, expected {}or .splat of "
-                      "32 bytes a Gaussian",
-                      Endings)};
+  return {Where, fmt::format("not a scene in a known format, expected {}or "
+                             ".splat of 32 bytes per Gaussian",
+                             Endings)};
 }
 
 } // namespace vorion::splat

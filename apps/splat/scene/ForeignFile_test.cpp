@@ -86,16 +86,16 @@ TEST(ForeignFile, EachKindIsNamedWithWhatToDo) {
       {zipWith("lod-meta.json"), "a zip archive of a streamed", "the folder"},
       {"version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
        "a pointer of Git LFS", "git lfs pull"},
-      {"<!DOCTYPE html>\n<html></html>\n", "a web page", "fetch"},
+      {"<!DOCTYPE html>\n<html></html>\n", "a web page", "download"},
       {"[{\"id\": 0, \"img_name\": \"a\"}]", "a list in JSON", "--cameras"},
       {"{\"frames\": []}", "a list of cameras", "--cameras"},
       {"{\"camera_path\": []}", "a camera path", "--cameras"},
       {"{\"keyframes\": []}", "a camera path", "--cameras"},
-      {"{\"a\": 1}", "JSON that describes no scene", "meta.json"},
-      {"{}", "JSON that describes no scene", "meta.json"},
-      {"0 0 0\n1 1 1\n", "not a scene of a known format", ".spz"},
+      {"{\"a\": 1}", "JSON that does not describe a scene", "meta.json"},
+      {"{}", "JSON that does not describe a scene", "meta.json"},
+      {"0 0 0\n1 1 1\n", "not a scene in a known format", ".spz"},
       // As long as two records of a .splat, and plausible as numbers.
-      {std::string(64, '1'), "not a scene of a known format", ".spz"},
+      {std::string(64, '1'), "not a scene in a known format", ".spz"},
   };
   for (const auto &[Content, Kind, Todo] : Files) {
     const std::string What = whatIs(Content);
@@ -125,8 +125,8 @@ TEST(ForeignFile, ASplatMayBeginWithAnyLetter) {
 
 TEST(ForeignFile, NumbersWithoutRotationsAreNoSplat) {
   EXPECT_EQ(whatIs(std::string(96, '\0')),
-            "3 of 3 records have a rotation whose length is not 1, expected a "
-            ".splat file, which has few such");
+            "3 of 3 records have a rotation that is not normalized, expected a "
+            ".splat file, where these are rare");
   // Some writers leave a rotation out here and there.
   const std::string Whole = splatBeginning("");
   EXPECT_EQ(whatIs(Whole + std::string(32, '\0')), "read as splat");

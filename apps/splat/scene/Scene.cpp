@@ -62,7 +62,7 @@ Expected<Success> checkFinite(const std::string &Where, const Scene &S) {
     }
   }
   if (First < S.size())
-    return Error{Where, fmt::format("Gaussian {} holds a NaN or an infinity in "
+    return Error{Where, fmt::format("Gaussian {} has a NaN or an infinity in "
                                     "its {}, expected finite values",
                                     First, Part)};
   return Success{};

@@ -26,17 +26,17 @@ Expected<SceneFile> checked(const std::string &Where, Expected<SceneFile> Read,
                  "--lod",
                  ExitCode::Usage};
   if (Read->Gaussians.size() == 0)
-    return Error{Where, "no Gaussian, expected at least one"};
+    return Error{Where, "no Gaussians, expected at least one"};
   if (Options.DropNonFinite) {
     Read->Dropped = dropNonFinite(Read->Gaussians);
     if (Read->Gaussians.size() == 0)
       return Error{Where,
-                   fmt::format("none of {} Gaussians is without a NaN or "
-                               "an infinity, expected at least one",
+                   fmt::format("all {} Gaussians have a NaN or an infinity, "
+                               "expected at least one finite Gaussian",
                                Read->Dropped)};
   } else if (auto Finite = checkFinite(Where, Read->Gaussians); !Finite) {
     return Error{Where, Finite.error().What +
-                            ", or --drop-nonfinite to leave such ones out"};
+                            ", or --drop-nonfinite to drop such Gaussians"};
   }
   Read->DrawnAs = withRequest(std::move(Read->DrawnAs), Options.Drawn);
   return Read;

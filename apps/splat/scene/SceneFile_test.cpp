@@ -72,7 +72,7 @@ TEST(SceneFile, EveryValueThatIsNotFiniteIsFound) {
       constexpr const char *Parts[] = {"position", "scales", "rotation",
                                        "opacity", "colours"};
       EXPECT_EQ(Checked.error().What,
-                fmt::format("Gaussian 1 holds a NaN or an infinity in its {}, "
+                fmt::format("Gaussian 1 has a NaN or an infinity in its {}, "
                             "expected finite values",
                             Parts[Field]));
     }
@@ -119,8 +119,8 @@ TEST(SceneFile, ASceneOfNothingElseIsAnErrorAllTheSame) {
   const auto Read = parseScene("s", std::as_bytes(std::span(Ply)),
                                {.DropNonFinite = true, .Drawn = {}});
   ASSERT_FALSE(Read);
-  EXPECT_EQ(Read.error().What, "none of 3 Gaussians is without a NaN or an "
-                               "infinity, expected at least one");
+  EXPECT_EQ(Read.error().What, "all 3 Gaussians have a NaN or an infinity, "
+                               "expected at least one finite Gaussian");
 }
 
 // Two formats see such values before a scene is there.

@@ -31,8 +31,8 @@ struct Writer {
 
 Expected<std::string> spzOf(const Scene &S, const Drawing &D) {
   if (!fitsSpz(S))
-    return Error{"", "the scene is larger than 16 million units, which .spz "
-                     "cannot hold, expected a smaller one or another format"};
+    return Error{"", "the scene is larger than 16 million units, the limit of "
+                     ".spz, expected a smaller scene or another format"};
   return gzipOf(spzBodyOf(S, 3, D));
 }
 
@@ -91,9 +91,9 @@ Expected<WrittenScene> writeSogFolder(const std::string &Path, const Scene &S,
                                       const Drawing &D) {
   namespace fs = std::filesystem;
   if (fs::path(Path).filename() != SogIndex)
-    return Error{Path,
-                 fmt::format("no name of a SOG's index, expected {}", SogIndex),
-                 ExitCode::Usage};
+    return Error{
+        Path, fmt::format("not the name of a SOG index, expected {}", SogIndex),
+        ExitCode::Usage};
   const auto Files = sogFilesOf(S, D);
   if (!Files)
     return Error{Path, Files.error().What, Files.error().Code};

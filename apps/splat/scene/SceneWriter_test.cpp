@@ -93,7 +93,7 @@ TEST(SceneWriter, ASogsFolderIsTheArchivesScene) {
   const auto Refused = writeScene(Folder.path("s.meta.json"), S, Drawing());
   ASSERT_FALSE(Refused);
   EXPECT_EQ(Refused.error().What,
-            "no name of a SOG's index, expected meta.json");
+            "not the name of a SOG index, expected meta.json");
 }
 
 TEST(SceneWriter, ASogsFolderThatCannotBeWrittenStaysAsItWas) {

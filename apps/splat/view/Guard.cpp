@@ -35,12 +35,12 @@ void Guard::listensOn(int Port) {
 
 std::optional<std::string> Guard::refuse(const Visitor &V) const {
   if (V.Host != ByAddress && V.Host != ByName)
-    return "the request names another host than this server";
+    return "the request's host is not this server";
   // Its absence is no browser's: curl sends none with a GET.
   if ((V.IsPost || !V.Origin.empty()) && V.Origin != "http://" + V.Host)
-    return "the request comes from another page than this server's";
+    return "the request's origin is not a page of this server";
   if (!V.IsPage && !sameInConstantTime(Secret, V.Token))
-    return "the token is missing or wrong, expected the address that splat "
+    return "the token is missing or invalid, expected the address that splat "
            "view has printed";
   return std::nullopt;
 }

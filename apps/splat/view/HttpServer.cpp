@@ -190,13 +190,14 @@ void Connection::begin(HttpWork W) {
   const auto Own = Server.RequestsOf.find(W.Client);
   if (Own != Server.RequestsOf.end() &&
       Own->second >= Server.Most.RequestsOfClient)
-    return refuse(429, fmt::format("{} requests are being answered already, "
-                                   "expected one after the other",
-                                   Own->second));
+    return refuse(
+        429,
+        fmt::format(
+            "{} requests are in progress, expected fewer concurrent requests",
+            Own->second));
   if (Server.Requests >= Server.Most.Requests ||
       Server.BodyBytes + Reserved > Server.Most.BodyBytes)
-    return refuse(503, "the server has as much to do as it may have, expected "
-                       "a later request");
+    return refuse(503, "the server's queue is full, expected a later request");
   Work = std::move(W);
   BodyBytes = Reserved;
   ++Server.RequestsOf[Work->Client];
@@ -361,8 +362,8 @@ HttpServer::listen(int Port, Fields Always, Admit Decide, Refuse Say,
     A.listen(tcp::acceptor::max_listen_connections);
   } catch (const boost::system::system_error &) {
     return Error{"",
-                 fmt::format("--port {}: is in use or not allowed, expected a "
-                             "free one, or 0 for any",
+                 fmt::format("--port {}: is in use or not permitted, expected "
+                             "a free port, or 0 for any",
                              Port),
                  ExitCode::Usage};
   }

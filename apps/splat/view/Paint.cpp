@@ -67,7 +67,7 @@ Painted paintHeat(const std::vector<TileWork> &Tiles, Heat H, int Width,
                   int Height) {
   constexpr std::array<std::string_view, Heats.size()> Units{
       "entries of a list", "fragments blended", "cycles",
-      "% of pixels that are full"};
+      "% of saturated pixels"};
   // The page has a legend of its own.
   Image Map = drawHeat(Tiles, H, Width, Height);
   Map.Height = Height;

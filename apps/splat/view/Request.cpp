@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, Layers.size()> LayerNames{
 
 Error wrong(std::string_view Key, std::string_view Wanted) {
   return {"",
-          fmt::format("the request's key {} is not there or wrong, expected {}",
+          fmt::format("the request's key {} is missing or invalid, expected {}",
                       Key, Wanted),
           ExitCode::Usage};
 }
@@ -162,8 +162,7 @@ Expected<ViewRequest> parseViewRequest(std::string_view Text) {
 }
 
 Error superseded() {
-  return {"", "a newer request took the place of this one",
-          ExitCode::LimitReached};
+  return {"", "superseded by a newer request", ExitCode::LimitReached};
 }
 
 bool isSuperseded(const Error &E) { return E.What == superseded().What; }

@@ -152,7 +152,7 @@ std::variant<HttpAnswer, HttpWork> Server::Parts::admit(const HttpHead &R) {
         return Each.Method == R.method() && Each.Path == Path;
       });
   if (Found == Routes.end())
-    return refusal(404, "there is nothing of this name");
+    return refusal(404, "no resource with this name");
   return HttpWork{
       Field(PageHeader), Found->MostBody,
       [this, Do = Found->Answer](const HttpCall &C) { return (this->*Do)(C); }};

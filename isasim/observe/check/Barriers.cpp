@@ -51,11 +51,11 @@ void BarrierCheck::fetch(const Step &S) {
 
 void BarrierCheck::trap(const Trap &T) {
   if (T.Cause == TrapCause::DivergentBranch)
-    Out.add({T.Core, T.Warp, T.Lane, T.Pc, T.Instruction},
-            fmt::format("lane {} decides otherwise than lane {} about a branch "
-                        "that must be the same for all work-items: a barrier "
-                        "depends on it, or vx_uniform() promised it",
-                        T.Lane, std::countr_zero(T.LaneMask)));
+    Out.add(
+        {T.Core, T.Warp, T.Lane, T.Pc, T.Instruction},
+        fmt::format("lanes {} and {} diverge at a branch that must be uniform: "
+                    "a barrier depends on it, or vx_uniform() asserts it",
+                    T.Lane, std::countr_zero(T.LaneMask)));
 }
 
 std::unique_ptr<Check> makeBarrierCheck(Reporter Out, const Places &) {

@@ -42,7 +42,7 @@ std::string Buffers::describe(uint32_t Address) const {
                        named(*Before));
   if (Next)
     return fmt::format("{} before {}", counted(Ahead, "byte"), named(*Next));
-  return "where nothing is allocated";
+  return "unallocated memory";
 }
 
 } // namespace vorion::isasim

@@ -33,5 +33,5 @@ TEST(Buffers, DescribesFromTheNearest) {
             "28416 bytes past the end of b (256 bytes at 0x00002000)");
   B.remove(0x1000);
   B.remove(0x2000);
-  EXPECT_EQ(B.describe(0x1000), "where nothing is allocated");
+  EXPECT_EQ(B.describe(0x1000), "unallocated memory");
 }

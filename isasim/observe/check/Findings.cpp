@@ -40,10 +40,10 @@ void Findings::add(std::string_view Check, const Culprit &C,
 
 void Findings::reportRepeats() {
   if (Total != Reported)
-    Report(
-        fmt::format("check: {} at {}; each place is reported once, {} at most",
-                    counted(Total, "finding"), counted(Counts.size(), "place"),
-                    MostPlaces));
+    Report(fmt::format(
+        "check: {} at {}; each location is reported once, {} at most",
+        counted(Total, "finding"), counted(Counts.size(), "place"),
+        MostPlaces));
   Reported = Total;
 }
 

@@ -60,7 +60,7 @@ std::string Places::describe(uint32_t Address, const Step &S,
   case Global:
     return Held.empty() ? "in global memory" : Held.describe(Address);
   case Local:
-    return fmt::format("{} into local memory, {} of which are the group's",
+    return fmt::format("{} into local memory, of which the group has {}",
                        counted(Address - VX_LOCAL_BASE, "byte"),
                        localEnd() - VX_LOCAL_BASE);
   case Stack: {
@@ -84,7 +84,7 @@ std::string Places::describe(uint32_t Address, const Step &S,
     break;
   }
   return Address < VX_GLOBAL_BASE ? "near address 0: a null pointer?"
-                                  : "where no memory is";
+                                  : "unmapped memory";
 }
 
 std::string Places::describeAccess(const Step &S, unsigned Lane) const {

@@ -181,10 +181,9 @@ void UninitCheck::use(const Step &S, Warp &W, unsigned Register, uint32_t Lanes,
   const uint32_t Bad = S.LaneMask & Lanes & ~W.Good[Register].whole();
   if (!Bad)
     return;
-  Out.add(Culprit::of(S, static_cast<unsigned>(std::countr_zero(Bad))),
-          fmt::format("{} from memory that nothing was written to (lanes "
-                      "0x{:04x})",
-                      What, Bad));
+  Out.add(
+      Culprit::of(S, static_cast<unsigned>(std::countr_zero(Bad))),
+      fmt::format("{} from uninitialized memory (lanes 0x{:04x})", What, Bad));
   // Once is enough.
   W.Good[Register].set(Bad, Word::wholeIn(AllLanes));
 }
@@ -304,9 +303,9 @@ void UninitCheck::checkStore(const Step &S, Warp &W) {
     if (Where.hasLaunch() && Where.isContext(Address))
       continue;
     Out.add(Culprit::of(S, L),
-            fmt::format("store of a value from memory that nothing was "
-                        "written to, at 0x{:08x}, {}",
-                        Address, Where.describe(Address, S, L)));
+            fmt::format(
+                "store of a value from uninitialized memory at 0x{:08x}, {}",
+                Address, Where.describe(Address, S, L)));
     Shadow->set(Address, Bytes, true);
   }
 }

@@ -145,8 +145,8 @@ std::string numericText(const NumericFindings &F) {
   const auto Lines = F.Sites.lines();
   std::string Text = fmt::format(
       "# vorion-numerics 1\n"
-      "# {} run{}; every fp32 value beside its double; limit: relative error "
-      "{:g}, cancellation of {} bits\n",
+      "# {} run{}; every fp32 value compared with its shadow in double; "
+      "limits: relative error {:g}, cancellation of {} bits\n",
       F.Runs, F.Runs == 1 ? "" : "s", F.Limits.Relative, F.Limits.CancelBits);
 #define VORION_NUMERIC_COUNT(MEMBER, NAME, DOC)                                \
   Text += fmt::format("# {}: {}\n", NAME, DOC);
@@ -183,13 +183,13 @@ std::string numericText(const NumericFindings &F) {
     }
   }
   if (Left)
-    Text += fmt::format("{} more lines like these\n", Left);
+    Text += fmt::format("{} more lines\n", Left);
   if (Unused)
-    Text += fmt::format("{} lines whose errors reach nothing: the terms of "
-                        "compensated sums, and what is not used\n",
+    Text += fmt::format("{} lines whose errors do not propagate: terms of "
+                        "compensated sums, and unused values\n",
                         Unused);
-  Text += fmt::format("{} lines with nothing to report, largest error of those "
-                      "that use no bad value: {:.1e}\n",
+  Text += fmt::format("{} lines without findings, largest error of those "
+                      "without bad operands: {:.1e}\n",
                       Quiet, QuietMax);
   const auto Tell = [&](const char *What, const NumericEvent *E) {
     if (!E)

@@ -118,10 +118,10 @@ Expected<std::unique_ptr<Tool>> make(const std::string &Text,
   if (!O)
     return O.error();
   if (O->Text == StandardOutput && !To.Print)
-    return Error{"",
-                 "the numerics report has nowhere to go, expected text=FILE or "
-                 "json=FILE",
-                 ExitCode::Usage};
+    return Error{
+        "",
+        "the numerics report has no output, expected text=FILE or json=FILE",
+        ExitCode::Usage};
   return std::unique_ptr<Tool>(std::make_unique<NumericsTool>(*O, To));
 }
 

@@ -45,8 +45,9 @@ std::string rasterText(const RasterFindings &F, unsigned Top) {
     return "";
   std::string Text = fmt::format(
       "\nrasterizers: {} commands, {} of them finished by pixel units\n"
-      "# own: against the stage in double on its fp32 operands; total: against "
-      "the shadow of all before it;\n# relative, the power's absolute\n"
+      "# own: error of the stage alone, against double on the same fp32 "
+      "operands; total: error against the shadow of all stages;\n# relative, "
+      "absolute for the power\n"
       "{:>12} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n",
       F.Commands, F.Tails, "results", "own mean", "own max", "mean", "max",
       "differ", "subnorm", "nonfin");
@@ -64,12 +65,12 @@ std::string rasterText(const RasterFindings &F, unsigned Top) {
   }
   if (Worst)
     Text += fmt::format(
-        "stage with the largest error of its own: {}, {:.1e} on average, at "
-        "worst {:.1e}: {:.9g} for {:.9g} at pixel ({}, {}), Gaussian {}\n",
+        "stage with the largest own error: {}, mean {:.1e}, maximum {:.1e}: "
+        "{:.9g} for {:.9g} at pixel ({}, {}), Gaussian {}\n",
         StageNames[Worst - F.Stages.data()].Name,
         mean(Worst->OwnSum, Worst->Results), Worst->OwnMax, Worst->Actual,
         Worst->Reference, Worst->X, Worst->Y, Worst->Gaussian);
-  Text += fmt::format("{} pixels off by {:.1e} on average\n", F.Pixels,
+  Text += fmt::format("{} pixels with a mean error of {:.1e}\n", F.Pixels,
                       mean(F.OffSum, F.Pixels));
   for (size_t N = 0; N != std::min<size_t>(Top, F.WorstPixels.size()); ++N) {
     const PixelFinding &P = F.WorstPixels[N];
@@ -79,13 +80,13 @@ std::string rasterText(const RasterFindings &F, unsigned Top) {
                         P.Actual.T, P.Reference[0], P.Reference[1],
                         P.Reference[2], P.Reference[3]);
   }
-  Text += "Gaussians by what they are off by in the picture\n";
+  Text += "Gaussians by their error in the picture\n";
   for (const auto &[Number, C] : worst(F, Top))
     Text += fmt::format("  Gaussian {} by {:.1e} in {} fragments, alpha by a "
                         "part of {:.1e}, {} decisions differ\n",
                         Number, C.Colour, C.Fragments, C.AlphaMax, C.Differ);
   if (F.NotReplayed)
-    Text += fmt::format("{} pixels have other bits than the repetition here: a "
+    Text += fmt::format("{} pixels differ in bits from the recomputation: a "
                         "bug of the simulator\n",
                         F.NotReplayed);
   return Text;

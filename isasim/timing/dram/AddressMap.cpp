@@ -57,29 +57,30 @@ std::span<const std::string_view> addressMaps() { return Names; }
 Expected<AddressMap> addressMap(std::string_view Name, const TimingTable &Table,
                                 uint32_t Channels, uint32_t Interleave) {
   if (std::ranges::find(Names, Name) == Names.end())
-    return Error{"",
-                 fmt::format("\"{}\" is no address map, expected one of {}{}",
-                             Name, fmt::join(Names, ", "),
-                             didYouMean(Name, Names)),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format("\"{}\" is not an address map, expected one of {}{}", Name,
+                    fmt::join(Names, ", "), didYouMean(Name, Names)),
+        ExitCode::Usage};
   if (!std::has_single_bit(Channels) || Channels > 64)
     return Error{
         "",
         fmt::format("{} channels, expected a power of two up to 64", Channels),
         ExitCode::Usage};
   if (!std::has_single_bit(Interleave) || Interleave < 64 || Interleave > 4096)
-    return Error{"",
-                 fmt::format("{} bytes a channel, expected a power of two from "
-                             "64 to 4096",
-                             Interleave),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format(
+            "{} bytes per channel, expected a power of two from 64 to 4096",
+            Interleave),
+        ExitCode::Usage};
   const unsigned InRow = bitsOf(Table.RowBytes) - LineBits;
   const unsigned Fixed = InRow + bitsOf(Channels) + bitsOf(Table.Ranks) +
                          bitsOf(Table.BankGroups) + bitsOf(Table.BanksPerGroup);
   if (Fixed >= AddressBits - LineBits)
     return Error{"",
-                 fmt::format("rows, banks and channels take {} of a line's {} "
-                             "address bits, expected some left for the row",
+                 fmt::format("columns, banks and channels take {} of a line's "
+                             "{} address bits, expected at least one row bit",
                              Fixed, AddressBits - LineBits),
                  ExitCode::Usage};
   AddressMap Map;

@@ -82,12 +82,12 @@ TEST(AddressMap, XorSpreadsWhatIsFarApart) {
 TEST(AddressMap, WhatCannotBeIsRefused) {
   const TimingTable T = *standardTable("lpddr4-3200");
   EXPECT_EQ(addressMap("zigzag", T, 1, 64).error().What,
-            "\"zigzag\" is no address map, expected one of digit_sum, "
+            "\"zigzag\" is not an address map, expected one of digit_sum, "
             "row_bank_column, xor");
   EXPECT_EQ(addressMap("xor", T, 3, 64).error().What,
             "3 channels, expected a power of two up to 64");
   EXPECT_EQ(addressMap("xor", T, 2, 32).error().What,
-            "32 bytes a channel, expected a power of two from 64 to 4096");
+            "32 bytes per channel, expected a power of two from 64 to 4096");
 }
 
 TEST(AddressMap, OneThatTakesMoreThanAWordIsRefused) {
@@ -100,8 +100,8 @@ TEST(AddressMap, OneThatTakesMoreThanAWordIsRefused) {
   T.RowBytes = 1U << 30;
   T.BanksPerGroup = 16;
   EXPECT_EQ(addressMap("row_bank_column", T, 64, 64).error().What,
-            "rows, banks and channels take 34 of a line's 34 address bits, "
-            "expected some left for the row");
+            "columns, banks and channels take 34 of a line's 34 address bits, "
+            "expected at least one row bit");
 }
 
 } // namespace

@@ -23,21 +23,21 @@ Expected<Success> check(const TimingTable &Table,
     return Fail(fmt::format("line_bytes is {}, expected 1 to a row's {}",
                             Options.LineBytes, Table.RowBytes));
   if (std::min(Options.ReadQueue, Options.WriteQueue) < Bursts)
-    return Fail(fmt::format("a queue has room for {} bursts, expected the {} "
-                            "of a line",
-                            std::min(Options.ReadQueue, Options.WriteQueue),
-                            Bursts));
+    return Fail(fmt::format(
+        "a queue has {} entries for bursts, expected the {} bursts of a line",
+        std::min(Options.ReadQueue, Options.WriteQueue), Bursts));
   if (Options.DrainAbove > 100 || Options.DrainBelow > Options.DrainAbove)
-    return Fail(fmt::format("writes are drained above {} % until below {} %, "
-                            "expected at most 100 and no more than that",
-                            Options.DrainAbove, Options.DrainBelow));
+    return Fail(
+        fmt::format("writes are drained above {} % until below {} %, expected "
+                    "at most 100 and the lower threshold not above the upper",
+                    Options.DrainAbove, Options.DrainBelow));
   if (Options.MostDrained == 0)
-    return Fail("most_drained is 0, expected a burst at least");
+    return Fail("most_drained is 0, expected at least one burst");
   if (Options.Refresh == ControllerOptions::RefreshBy::Bank &&
       Table.BankRefreshInterval == 0)
-    return Fail(fmt::format("{} has no refresh by bank: its table has no "
-                            "bank_refresh_interval",
-                            Table.Standard));
+    return Fail(fmt::format(
+        "{} has no per-bank refresh: its table has no bank_refresh_interval",
+        Table.Standard));
   return Success{};
 }
 

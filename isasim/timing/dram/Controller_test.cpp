@@ -323,13 +323,14 @@ TEST(Controller, OptionsThatCannotBeAreRefused) {
   using Options = ControllerOptions;
   EXPECT_EQ(
       Problem("ddr3-1600", [](Options &O) { O.Refresh = RefreshBy::Bank; }),
-      "ddr3-1600 has no refresh by bank: its table has no "
+      "ddr3-1600 has no per-bank refresh: its table has no "
       "bank_refresh_interval");
-  EXPECT_EQ(Problem("hbm2e", [](Options &O) { O.WriteQueue = 1; }),
-            "a queue has room for 1 bursts, expected the 2 of a line");
+  EXPECT_EQ(
+      Problem("hbm2e", [](Options &O) { O.WriteQueue = 1; }),
+      "a queue has 1 entries for bursts, expected the 2 bursts of a line");
   EXPECT_EQ(Problem("hbm2e", [](Options &O) { O.DrainBelow = 90; }),
             "writes are drained above 80 % until below 90 %, expected at most "
-            "100 and no more than that");
+            "100 and the lower threshold not above the upper");
 }
 
 /// Reads and writes of a few rows, in bursts of equal times.

@@ -108,7 +108,8 @@ private:
 
   bool readValues() {
     if (!Document["values"].is_object())
-      return fail("key values is no object, expected one of [ticks, source]");
+      return fail(
+          "key values is not an object, expected one of [ticks, source]");
     for (const auto &[Name, Value] : Document["values"].items()) {
       if (!Value.is_array() || Value.size() != 2 ||
           !Value[0].is_number_unsigned() || Value[0] > MostTicks ||
@@ -147,7 +148,7 @@ private:
         const auto Found = Values.find(Word);
         if (Found == Values.end())
           return fail(
-              fmt::format("key {} uses {}, which values has not", Key, Word));
+              fmt::format("key {} uses {}, which is not in values", Key, Word));
         Number = Found->second;
       }
       Sum += Sign * int64_t{Number};
@@ -213,7 +214,8 @@ private:
     if (!Document.contains("command_ticks"))
       return true;
     if (!Document["command_ticks"].is_object())
-      return fail("key command_ticks is no object, expected ticks by command");
+      return fail(
+          "key command_ticks is not an object, expected ticks by command");
     for (const auto &[Name, Value] : Document["command_ticks"].items()) {
       const std::string Key = "command_ticks." + Name;
       const auto Which = parseName<Command>(Name, CommandNames, Key);
@@ -261,8 +263,7 @@ private:
       for (const Constraint &Old : Table.Constraints)
         if (Old.From == New.From && Old.To == New.To &&
             Old.Within == New.Within && Old.Window == New.Window)
-          return fail(fmt::format("key {} is there twice: {} to {} of the same "
-                                  "{}",
+          return fail(fmt::format("duplicate key {}: {} to {} of the same {}",
                                   Key, name(New.From), name(New.To),
                                   name(New.Within)));
       Table.Constraints.push_back(New);
@@ -441,11 +442,11 @@ Expected<TimingTable> standardTable(std::string_view Name) {
   if (Text.empty()) {
     const std::vector<std::string> Known(standards().begin(),
                                          standards().end());
-    return Error{"",
-                 fmt::format("\"{}\" is no DRAM standard, expected one of {}{}",
-                             Name, fmt::join(Known, ", "),
-                             didYouMean(Name, Known)),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format("\"{}\" is not a DRAM standard, expected one of {}{}", Name,
+                    fmt::join(Known, ", "), didYouMean(Name, Known)),
+        ExitCode::Usage};
   }
   return parseTimingTable(Text, std::string(Name));
 }

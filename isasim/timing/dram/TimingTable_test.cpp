@@ -61,7 +61,7 @@ TEST(TimingTable, AnUnknownStandardIsRefused) {
   const auto T = standardTable("lpddr4-320");
   ASSERT_FALSE(T);
   EXPECT_EQ(T.error().What,
-            "\"lpddr4-320\" is no DRAM standard, expected one of ddr3-1600, "
+            "\"lpddr4-320\" is not a DRAM standard, expected one of ddr3-1600, "
             "ddr4-3200, hbm2e, lpddr4-3200, lpddr5-6400, ramulator-lpddr4; did "
             "you mean lpddr4-3200?");
 }
@@ -138,7 +138,7 @@ TEST(TimingTable, WhatIsNoTableIsRefusedByItsKey) {
   };
   EXPECT_EQ(
       With([](Json &J) { J["constraints"][0]["ticks"] = "nRCDX"; }),
-      "t.json: key constraints[0].ticks uses nRCDX, which values has not");
+      "t.json: key constraints[0].ticks uses nRCDX, which is not in values");
   EXPECT_EQ(With([](Json &J) { J["constraints"][0]["ticks"] = "nRCD nRCD"; }),
             "t.json: key constraints[0].ticks is \"nRCD nRCD\", expected + or "
             "- between its terms");

@@ -180,17 +180,19 @@ TEST(DramChannels, MistakesNameTheKey) {
     return Setup ? std::string() : Setup.error().What;
   };
   EXPECT_EQ(Wrong([](DramTiming &) {}), "");
-  EXPECT_EQ(Wrong([](DramTiming &P) { P.Standard = "ddr3"; }),
-            "timing.dram.standard: \"ddr3\" is no DRAM standard, expected one "
-            "of ddr3-1600, ddr4-3200, hbm2e, lpddr4-3200, lpddr5-6400, "
-            "ramulator-lpddr4; did you mean ddr3-1600?");
+  EXPECT_EQ(
+      Wrong([](DramTiming &P) { P.Standard = "ddr3"; }),
+      "timing.dram.standard: \"ddr3\" is not a DRAM standard, expected one "
+      "of ddr3-1600, ddr4-3200, hbm2e, lpddr4-3200, lpddr5-6400, "
+      "ramulator-lpddr4; did you mean ddr3-1600?");
   EXPECT_EQ(Wrong([](DramTiming &P) {
               P.Standard = "/nowhere/t.json";
             }).substr(0, 37),
             "timing.dram.standard: /nowhere/t.json");
-  EXPECT_EQ(Wrong([](DramTiming &P) { P.AddressMap = "zigzag"; }),
-            "timing.dram.address_map: \"zigzag\" is no address map, expected "
-            "one of digit_sum, row_bank_column, xor");
+  EXPECT_EQ(
+      Wrong([](DramTiming &P) { P.AddressMap = "zigzag"; }),
+      "timing.dram.address_map: \"zigzag\" is not an address map, expected "
+      "one of digit_sum, row_bank_column, xor");
   EXPECT_EQ(Wrong([](DramTiming &P) { P.Channels = 3; }),
             "timing.dram.channels: 3, expected a power of two");
   EXPECT_EQ(Wrong([](DramTiming &P) { P.ChannelBytes = 96; }),
@@ -201,11 +203,11 @@ TEST(DramChannels, MistakesNameTheKey) {
               P.Standard = "ddr3-1600";
               P.Refresh = "bank";
             }),
-            "timing.dram: ddr3-1600 has no refresh by bank: its table has no "
+            "timing.dram: ddr3-1600 has no per-bank refresh: its table has no "
             "bank_refresh_interval");
   EXPECT_EQ(Wrong([](DramTiming &P) { P.ReadQueue = 1; }),
-            "timing.dram: a queue has room for 1 bursts, expected the 2 of a "
-            "line");
+            "timing.dram: a queue has 1 entries for bursts, expected the 2 "
+            "bursts of a line");
 }
 
 } // namespace

@@ -94,9 +94,7 @@ Error unknownOption(const std::string &Option) {
       if (Known.starts_with(Language))
         Offered +=
             (Offered.empty() ? "" : ", ") + Known.substr(Language.size());
-    return usageError(Option +
-                      ": not a language that is offered, expected one "
-                      "of " +
+    return usageError(Option + ": unsupported language, expected one of " +
                       Offered);
   }
   std::vector<std::string> Known = {"-o",
@@ -165,7 +163,7 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
       if (Value.empty() && ++I < Arguments.size())
         Value = Arguments[I];
       if (Value.empty())
-        return usageError(Letter + ": nothing follows, expected a " +
+        return usageError(Letter + ": missing value, expected a " +
                           (Letter == "-o"   ? "file name"
                            : Letter == "-I" ? "folder"
                                             : "macro"));
@@ -197,7 +195,7 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
     } else if (Argument == "-save-temps=obj") {
       KeepsBesideOutput = true;
     } else if (Argument.starts_with("-save-temps=")) {
-      return usageError(Argument + ": unknown place, expected cwd or obj");
+      return usageError(Argument + ": unknown location, expected cwd or obj");
     } else if (Argument == "-w" || Argument == "-Werror" ||
                OpenClOptions.contains(Argument)) {
       Line.BuildOptions += Argument + " ";
@@ -217,7 +215,7 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
     } else if (Argument == "-mllvm") {
       ++I;
       if (I == Arguments.size())
-        return usageError("-mllvm: expected an option of LLVM");
+        return usageError("-mllvm: expected an LLVM option");
       for (const std::string &Word : {Argument, Arguments[I]}) {
         Line.ForMachine.push_back(Word);
         Line.ToCheck.push_back(Word);

@@ -14,7 +14,7 @@ namespace vorion {
 namespace {
 
 constexpr const char *Wanted = ", expected OpenCL C that compiles";
-constexpr const char *WantedModule = ", expected a module that can be built";
+constexpr const char *WantedModule = ", expected a valid module";
 /// What the platform says of a kernel that it cannot make an image of, and of
 /// which tool cannot.
 constexpr std::string_view KernelRefused = "vorion: error: ";
@@ -63,11 +63,11 @@ Error compilerError(const std::string &Input, const std::string &Log,
             (Errors == 1 ? "1 error" : std::to_string(Errors) + " errors") +
                 std::string(Wanted)};
   if (const auto Symbol = after(Output, "Cannot find symbol "))
-    return {Input, "there is no function " +
+    return {Input, "undefined function " +
                        Symbol->substr(0, Symbol->find(' ')) +
                        ", expected its definition in the file"};
   if (const auto Variable = after(Output, "the variable "))
-    return {Input, "there is no variable " +
+    return {Input, "undefined variable " +
                        Variable->substr(0, Variable->find(' ')) +
                        ", expected its definition in the file"};
   if (const auto Option = after(Output, "Invalid build option: "))
@@ -135,7 +135,7 @@ Error kernelError(const std::string &Input, const std::string &Output) {
       Said = Kernel + " cannot be linked";
     return {Input, Said + ", expected a kernel that can"};
   }
-  return {Input, "no code was made of it, expected at least one kernel"};
+  return {Input, "no code was generated, expected at least one kernel"};
 }
 
 Error linkerError(const std::string &Image, const std::string &Output) {
@@ -144,7 +144,7 @@ Error linkerError(const std::string &Image, const std::string &Output) {
   if (Cause && Cause->find(", expected ") != std::string::npos)
     return {Image, "cannot be linked: " + *Cause};
   return {Image, "cannot be linked" + (Cause ? " (" + *Cause + ")" : "") +
-                     ", expected kernels that make one program"};
+                     ", expected kernels that can be linked to one program"};
 }
 
 } // namespace vorion

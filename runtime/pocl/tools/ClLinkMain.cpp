@@ -185,7 +185,7 @@ Expected<Success> keepTemporaries(const std::string &Kernel,
     if (Problem)
       return Error{Copy.string(),
                    "cannot be written: " + Problem.message() +
-                       ", expected a place for what -save-temps keeps"};
+                       ", expected a writable location for -save-temps"};
   }
   return Success{};
 }
@@ -257,8 +257,7 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
   if (Found->Missing)
     return kernelError(Input.string(), Compiler.Output);
   if (Found->Objects.empty())
-    return Error{Input.string(),
-                 "there is no kernel in it, expected at least one"};
+    return Error{Input.string(), "no kernel, expected at least one"};
   return Found;
 }
 
@@ -312,7 +311,7 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
       if (!New)
         return Error{Input, "kernel " + Kernel + " is also in " +
                                 Owner->second +
-                                ", expected kernels of different names"};
+                                ", expected kernels with different names"};
       if (Line.Temporaries)
         if (const auto Kept =
                 keepTemporaries(Kernel, Object, *Line.Temporaries);

@@ -98,18 +98,18 @@ Expected<Success> run(const Arguments &A) {
 } // namespace vorion::test
 
 int main(int Count, char **Values) {
-  CLI::App App("Shows scenes whose numbers are hard, each with and without the "
-               "guards that it is about, as a table and a page; and holds them "
-               "to their contracts on both paths.",
+  CLI::App App("Renders numerically hard scenes, each with and without the "
+               "guards in the kernels that it exercises, and writes a table "
+               "and a page; checks the contract of each scene on both paths.",
                "splat-hard-cases");
   vorion::test::Arguments A;
-  App.add_option("cases", A.Plan.Cases, "Names; all if none is given");
+  App.add_option("cases", A.Plan.Cases, "Names of cases (default: all)");
   App.add_option_function<std::vector<std::string>>(
          "--case",
          [&A](const std::vector<std::string> &Names) {
            A.Plan.Cases.insert(A.Plan.Cases.end(), Names.begin(), Names.end());
          },
-         "The same; several times for several")
+         "Name of a case; may be repeated")
       ->allow_extra_args(false)
       ->option_text("NAME");
   vorion::writesFolder(
@@ -121,45 +121,48 @@ int main(int Count, char **Values) {
          [&A](const std::string &Set) {
            A.Plan.Machine.set("VORION_SET", Set, "--set");
          },
-         "change the Vorion device's configuration (as VORION_SET)")
+         "Override configuration keys of the Vorion device (default: "
+         "VORION_SET)")
       ->type_name("KEY=VALUE,...");
   App.add_flag_callback("--quiet", vorion::splat::hideProgress,
-                        "Say nothing of how far a run is");
-  App.add_flag("--list", A.List, "Print names and reasons instead");
+                        "Do not show progress");
+  App.add_flag("--list", A.List,
+               "Print the cases and why each is hard, and exit");
   App.add_option("--write", A.Write,
-                 "Write scenes and views below this folder instead");
-  App.add_flag("--long", A.Plan.Long, "The long cases too");
+                 "Write scenes and views to this folder, and exit");
+  App.add_flag("--long", A.Plan.Long, "Include the long cases");
   App.add_flag("--check", A.Check,
-               "Check each case as it stands, and draw nothing; so do all "
-               "options below");
-  App.add_flag("--alone", A.Plan.Alone, "Under each knob alone");
+               "Only check each case under the default settings, without "
+               "pictures; all options below imply this");
+  App.add_flag("--alone", A.Plan.Alone, "Check under each knob alone");
   App.add_option("--random", A.Plan.Random,
-                 "Under so many random combinations of knobs");
-  App.add_option("--fuzz", A.Fuzz.Groups,
-                 "Check so many groups of ten random scenes instead");
+                 "Check under this number of random combinations of knobs");
+  App.add_option(
+      "--fuzz", A.Fuzz.Groups,
+      "Check this number of groups of ten random scenes in place of the cases");
   App.add_option("--fuzz-minutes", A.Fuzz.Minutes,
-                 "Check random scenes for so long instead; with --rows it goes "
-                 "on where it stopped");
+                 "Check random scenes for this time in place of the cases; "
+                 "with --rows, continue where the last run stopped");
   App.add_option("--seed", A.Plan.Seed,
-                 "Of the first combination, or of the first group")
+                 "Seed of the first combination or group")
       ->capture_default_str();
-  App.add_flag("--broken", A.Plan.Broken, "With the broken kernels");
+  App.add_flag("--broken", A.Plan.Broken,
+               "Check that deliberately broken kernels are detected");
   App.add_option("--oracle", A.Plan.Oracle,
-                 "Hold the reference in fp64 against 256 bits, at about so "
-                 "many (pixel, Gaussian) pairs a case");
+                 "Compare the fp64 reference with 256-bit arithmetic, at about "
+                 "this number of (pixel, Gaussian) pairs per case");
   App.add_option("--one-in", A.Plan.OneIn,
-                 "Only one in so many of the settings and broken kernels")
+                 "Check only one of N settings and broken kernels")
       ->check(CLI::Range(1U, 1000000U))
       ->capture_default_str();
   App.add_option("--rows", A.Plan.RowFile,
-                 "Keep results here, and do not repeat what it has");
+                 "Store results in this file, and skip those that it has");
   App.add_option("--scratch", A.Plan.Scratch,
-                 "Keep the broken kernels' sources in this folder");
-  App.add_flag(
-      "--table", A.Table,
-      "Print what --rows has as the table of docs/tables/hard-cases.md "
-      "instead");
-  App.add_flag("-v,--verbose", A.Verbose, "A line for every check");
+                 "Write the sources of the broken kernels to this folder");
+  App.add_flag("--table", A.Table,
+               "Print the results of --rows as the table of "
+               "docs/tables/hard-cases.md, and exit");
+  App.add_flag("-v,--verbose", A.Verbose, "Print a line for each check");
   std::vector<std::string> Words(Values + 1, Values + Count);
   Words.insert(Words.begin(), "hard-cases");
   vorion::splat::setCommandLine(std::move(Words));

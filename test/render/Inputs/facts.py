@@ -40,7 +40,7 @@ checks = [  # name, ours, theirs, relative tolerance, absolute: half of the last
     ("64: mean", box["lists"]["64"]["mean"], float(counts[10]), 1e-3, 0.06),
     ("64: most", box["lists"]["64"]["max"], float(counts[11]), 2e-3, 2),
     # Their lists' boxes hide a little of what the exact support blends.
-    ("blends a pixel", exact["blends_per_pixel"], float(blending[2]), 2e-2, 0.01),
+    ("blends per pixel", exact["blends_per_pixel"], float(blending[2]), 2e-2, 0.01),
     ("covered", exact["covered_share"], float(blending[5]), 2e-2, 0.002),
     ("mean T", exact["mean_transmittance"], float(blending[6]), 2e-2, 0.002),
     ("saturated", exact["saturated_share"], float(blending[10]), 5e-2, 0.002),

@@ -99,7 +99,7 @@ Expected<Success> Primitive::checkExtension(const Json &Extension) const {
     if (Key != "extensions" && Key != "extras" &&
         std::ranges::none_of(Values,
                              [&](const auto &V) { return Key == V.Key; }))
-      return wrong(fmt::format("{} is not known, expected {}'s properties",
+      return wrong(fmt::format("{} is unknown, expected a property of {}",
                                printable(Key), Splatting));
   return Success{};
 }
@@ -113,16 +113,16 @@ Primitive::attribute(std::initializer_list<std::string> Names,
       continue;
     const auto Number = gltfIndex(*Attributes, Each.c_str(), std::nullopt);
     if (!Number)
-      return wrong(fmt::format("attribute {} is no number, expected an "
-                               "accessor's",
-                               Each));
+      return wrong(fmt::format(
+          "attribute {} is not a number, expected the index of an accessor",
+          Each));
     auto A = Data.accessor(*Number);
     if (!A)
       return A.error();
     if (A->Width != Width)
-      return wrong(fmt::format("attribute {} has {} numbers an element, "
-                               "expected {}",
-                               Each, A->Width, Width));
+      return wrong(
+          fmt::format("attribute {} has {} numbers per element, expected {}",
+                      Each, A->Width, Width));
     return std::optional(*A);
   }
   return std::optional<GltfAccessor>();
@@ -168,9 +168,10 @@ Expected<Success> Primitive::readHarmonics(Scene &S) const {
     if (Found == 0)
       continue;
     if (Found != 2 * static_cast<std::size_t>(Band) + 1 || Degree != Band - 1)
-      return wrong(fmt::format("harmonics of degree {} are not whole, expected "
-                               "all coefficients of it and of those below",
-                               Band));
+      return wrong(
+          fmt::format("spherical harmonics of degree {} are incomplete, "
+                      "expected all coefficients up to this degree",
+                      Band));
     Degree = Band;
   }
   if (Degree == 0)
@@ -215,13 +216,13 @@ Expected<Scene> Primitive::readPlain(std::size_t &Left) {
        {&*Rotation, &*Size, *Base ? &**Base : &*Position,
         *Opacity ? &**Opacity : &*Position, Colour ? &*Colour : &*Position})
     if (A->Count != Count)
-      return wrong(fmt::format("attributes have {} and {} elements, expected "
-                               "as many of each",
-                               Count, A->Count));
+      return wrong(fmt::format(
+          "attributes have {} and {} elements, expected equal numbers", Count,
+          A->Count));
   // Many primitives may name the same numbers.
   if (Count > Left)
-    return wrong("more Gaussians than its buffers have bytes for, expected "
-                 "each once");
+    return wrong("more Gaussians than its buffers can contain, expected one "
+                 "reference per Gaussian");
   Left -= Count;
   Scene S = Scene::sized(Count, 0);
   for (std::size_t I = 0; I < Count; ++I) {
@@ -270,15 +271,13 @@ Expected<Scene> Primitive::read(std::set<std::size_t> &SpzRead,
         continue;
       const auto Number = gltfIndex(*Spz, "bufferView", std::nullopt);
       if (!Number || !SpzRead.insert(*Number).second)
-        return wrong(fmt::format("{} has no bufferView of its own, expected "
-                                 "one",
-                                 Each));
+        return wrong(fmt::format("{} has no bufferView, expected one", Each));
       const auto View = Data.bufferView(*Number);
       if (!View)
         return View.error();
       if (!isSpz(*View))
         return wrong(
-            fmt::format("bufferView {} is no .spz, expected one", *Number));
+            fmt::format("bufferView {} is not an .spz, expected one", *Number));
       auto Read = parseSpz(Where + ": " + Name, *View, Options);
       if (!Read)
         return Read.error();
@@ -417,7 +416,7 @@ Expected<SceneFile> parseGltfFiles(const std::string &Where, Bytes File,
                  fmt::format("no primitive with {}, expected one", Splatting)};
   if (Others > 0)
     Result.Skipped.push_back(
-        fmt::format("{} meshes that are no Gaussians", Others));
+        fmt::format("{} meshes without Gaussians", Others));
   return Result;
 }
 
@@ -426,9 +425,10 @@ Expected<SceneFile> parseGltf(const std::string &Where, Bytes File,
   return parseGltfFiles(
       Where, File,
       [&](const std::string &Name) -> Expected<std::vector<std::byte>> {
-        return Error{Where, fmt::format("needs the file `{}`, expected a file "
-                                        "that stands alone",
-                                        printable(Name))};
+        return Error{
+            Where,
+            fmt::format("needs the file `{}`, expected a self-contained file",
+                        printable(Name))};
       },
       Options);
 }

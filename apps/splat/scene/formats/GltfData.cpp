@@ -39,9 +39,10 @@ Expected<Chunks> chunksOf(const std::string &Where, Bytes File) {
   std::size_t At = 12;
   for (int Number = 0; At < File.size(); ++Number) {
     if (File.size() - At < 8 || File.size() - At - 8 < load<uint32_t>(File, At))
-      return Error{Where, fmt::format("chunk {} ends beyond the file, expected "
-                                      "a whole GLB",
-                                      Number)};
+      return Error{
+          Where,
+          fmt::format("chunk {} exceeds the file, expected a complete GLB",
+                      Number)};
     const auto Size = load<uint32_t>(File, At),
                Type = load<uint32_t>(File, At + 4);
     const Bytes Content = File.subspan(At + 8, Size);
@@ -250,7 +251,7 @@ Expected<Success> GltfData::readBuffers(Bytes Binary, bool HasBinary,
   if (List == Document.end())
     return Success{};
   if (!List->is_array())
-    return wrong("buffers is no list, expected one");
+    return wrong("buffers is not a list, expected a list");
   std::set<std::string> Names;
   for (const Json &One : *List) {
     const std::size_t Number = Buffers.size();
@@ -268,8 +269,8 @@ Expected<Success> GltfData::readBuffers(Bytes Binary, bool HasBinary,
                                  Number));
       Content = Binary;
     } else if (!Uri->is_string()) {
-      return wrong(fmt::format("buffer {} has a uri that is no text, expected "
-                               "a file's name or data",
+      return wrong(fmt::format("buffer {} has a uri that is not a string, "
+                               "expected a file name or data",
                                Number));
     } else if (const auto &Text = Uri->get_ref<const std::string &>();
                Text.starts_with("data:")) {
@@ -279,7 +280,7 @@ Expected<Success> GltfData::readBuffers(Bytes Binary, bool HasBinary,
               ? std::nullopt
               : decodeBase64(std::string_view(Text).substr(Comma + 8));
       if (!Decoded)
-        return wrong(fmt::format("buffer {} holds data that are not base64, "
+        return wrong(fmt::format("buffer {} has data that are not base64, "
                                  "expected data:...;base64,",
                                  Number));
       Owned.push_back(std::move(*Decoded));
@@ -287,14 +288,14 @@ Expected<Success> GltfData::readBuffers(Bytes Binary, bool HasBinary,
     } else {
       const std::string Name = decodePercents(Text);
       if (!staysInside(Name) || Name.find("://") != std::string::npos)
-        return wrong(fmt::format("names the file `{}`, expected one inside the "
-                                 "folder",
-                                 printable(Name)));
+        return wrong(fmt::format(
+            "refers to the file `{}`, expected a file inside the folder",
+            printable(Name)));
       // Memory must follow what is there.
       if (!Names.insert(Name).second)
-        return wrong(fmt::format("names the file `{}` twice, expected each "
-                                 "buffer's once",
-                                 printable(Name)));
+        return wrong(fmt::format(
+            "refers to the file `{}` twice, expected one reference per file",
+            printable(Name)));
       auto File = Read(Name);
       if (!File)
         return File.error();
@@ -315,8 +316,8 @@ Expected<const Json *> GltfData::objectAt(const char *Key,
   const auto List = Document.find(Key);
   if (List == Document.end() || !List->is_array() || Index >= List->size() ||
       !(*List)[Index].is_object())
-    return wrong(fmt::format("no object {} in {}, expected what is referred to",
-                             Index, Key));
+    return wrong(fmt::format(
+        "no object {} in {}, expected the referenced object", Index, Key));
   return &(*List)[Index];
 }
 
@@ -358,7 +359,7 @@ Expected<GltfAccessor> GltfData::accessor(std::size_t Index) const {
     return wrong(fmt::format("accessor {} {}", Index, What));
   };
   if (J.contains("sparse"))
-    return Bad("is sparse, which is not supported, expected a whole one");
+    return Bad("is sparse, which is not supported, expected a dense accessor");
   const auto Number = gltfIndex(J, "bufferView", std::nullopt);
   if (!Number)
     return Bad("has no bufferView, expected one");
@@ -377,9 +378,9 @@ Expected<GltfAccessor> GltfData::accessor(std::size_t Index) const {
                                ? componentBytes(static_cast<int>(*Component))
                                : 0;
   if (A.Width == 0 || Each == 0)
-    return Bad("has an unknown type or componentType, expected glTF's");
+    return Bad("has an unknown type or componentType, expected one of glTF");
   if (!Offset || !Count || !Stride)
-    return Bad("has a wrong count, byteOffset or byteStride, expected whole "
+    return Bad("has an invalid count, byteOffset or byteStride, expected whole "
                "numbers");
   A.Component = static_cast<int>(*Component);
   A.Count = *Count;
@@ -391,7 +392,7 @@ Expected<GltfAccessor> GltfData::accessor(std::size_t Index) const {
       (A.Count > 0 &&
        (Size - *Offset < A.Width * Each ||
         A.Count - 1 > (Size - *Offset - A.Width * Each) / A.Stride)))
-    return Bad("ends beyond its bufferView, expected one that fits");
+    return Bad("exceeds its bufferView, expected a range inside");
   A.View = View->subspan(*Offset);
   return A;
 }
@@ -409,7 +410,7 @@ Expected<Success> GltfData::walk(std::size_t Node, const GltfMatrix &Parent,
     const Step Now = Left.back();
     Left.pop_back();
     if (!Seen.insert(Now.Node).second || Seen.size() > Most)
-      return wrong(fmt::format("node {} has two parents or is its own, "
+      return wrong(fmt::format("node {} has two parents or is part of a cycle, "
                                "expected a tree of at most {} nodes",
                                Now.Node, Most));
     const auto Found = objectAt("nodes", Now.Node);
@@ -418,7 +419,7 @@ Expected<Success> GltfData::walk(std::size_t Node, const GltfMatrix &Parent,
     const Json &J = **Found;
     const auto Local = localTransform(J);
     if (!Local)
-      return wrong(fmt::format("node {} has a wrong transform, expected a "
+      return wrong(fmt::format("node {} has an invalid transform, expected a "
                                "matrix, or translation, rotation and scale",
                                Now.Node));
     const GltfMatrix Here = product(Now.Parent, *Local);
@@ -426,21 +427,20 @@ Expected<Success> GltfData::walk(std::size_t Node, const GltfMatrix &Parent,
       const auto Mesh = gltfIndex(J, "mesh", std::nullopt);
       if (!Mesh)
         return wrong(fmt::format(
-            "node {} has a wrong mesh, expected its number", Now.Node));
+            "node {} has an invalid mesh, expected its index", Now.Node));
       To.push_back({*Mesh, Here});
     }
     const auto Children = J.find("children");
     if (Children == J.end())
       continue;
     if (!Children->is_array())
-      return wrong(
-          fmt::format("node {} has wrong children, expected a list", Now.Node));
+      return wrong(fmt::format("node {} has invalid children, expected a list",
+                               Now.Node));
     // The first child next.
     for (auto It = Children->rbegin(); It != Children->rend(); ++It) {
       if (!It->is_number_unsigned())
-        return wrong(fmt::format("node {} has a wrong child, expected its "
-                                 "number",
-                                 Now.Node));
+        return wrong(fmt::format(
+            "node {} has an invalid child, expected its index", Now.Node));
       Left.push_back({It->get<std::size_t>(), Here});
     }
   }
@@ -456,16 +456,16 @@ Expected<std::vector<GltfInstance>> GltfData::instances() const {
     const auto Number = gltfIndex(Document, "scene", 0);
     const auto Scene =
         Number ? objectAt("scenes", *Number)
-               : Expected<const Json *>(
-                     wrong("scene is no number, expected one of scenes"));
+               : Expected<const Json *>(wrong(
+                     "scene is not a number, expected an index of scenes"));
     if (!Scene)
       return Scene.error();
     if (const auto List = (*Scene)->find("nodes"); List != (*Scene)->end()) {
       if (!List->is_array())
-        return wrong("a scene's nodes are no list, expected one");
+        return wrong("the nodes of a scene are not a list, expected a list");
       for (const Json &One : *List) {
         if (!One.is_number_unsigned())
-          return wrong("a scene has a wrong node, expected its number");
+          return wrong("a scene has an invalid node, expected its index");
         Roots.push_back(One.get<std::size_t>());
       }
     }

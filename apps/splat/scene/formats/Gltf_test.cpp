@@ -153,7 +153,7 @@ TEST(Gltf, PrimitivesAreJoinedAndMeshesAreNamed) {
   ASSERT_TRUE(Read) << Read.error().What;
   EXPECT_EQ(Read->Gaussians.size(), 10U);
   ASSERT_EQ(Read->Skipped.size(), 1U);
-  EXPECT_EQ(Read->Skipped[0], "1 meshes that are no Gaussians");
+  EXPECT_EQ(Read->Skipped[0], "1 meshes without Gaussians");
 }
 
 TEST(Gltf, SpzMayBeInside) {

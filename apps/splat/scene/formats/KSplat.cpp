@@ -90,9 +90,10 @@ Expected<Header> readHeader(const std::string &Where, Bytes File) {
     return Error{Where, fmt::format("compression {}, expected 0, 1 or 2",
                                     H.Compression)};
   if (H.Sections > (File.size() - HeaderSize) / SectionHeader)
-    return Error{Where, fmt::format("{} sections, expected the file to hold "
-                                    "their headers",
-                                    H.Sections)};
+    return Error{
+        Where,
+        fmt::format("{} sections, expected a file with all their headers",
+                    H.Sections)};
   return H;
 }
 
@@ -120,14 +121,14 @@ Expected<Section> readSection(const std::string &Where, Bytes File,
   if (S.ShDegree > MaxShDegree)
     return Wrong(fmt::format("has degree {}, expected 0 to 3", S.ShDegree));
   if (S.Count > S.Room)
-    return Wrong(fmt::format("has {} Gaussians, expected no more than its room "
-                             "for {}",
-                             S.Count, S.Room));
+    return Wrong(
+        fmt::format("has {} Gaussians, expected at most its capacity of {}",
+                    S.Count, S.Room));
   if (S.Buckets > 0 && BucketRecord != CentreSize)
     return Wrong(
         fmt::format("has buckets of {} bytes, expected 12", BucketRecord));
   if (S.records() + S.Room * H.each(S.ShDegree) > File.size())
-    return Wrong(fmt::format("ends at byte {}, expected the file to hold it",
+    return Wrong(fmt::format("ends at byte {}, expected an end inside the file",
                              S.records() + S.Room * H.each(S.ShDegree)));
   if (H.Compression > 0 && S.FullBuckets + S.PartBuckets > S.Buckets)
     return Wrong(fmt::format("has {} full and {} other buckets, expected {} "

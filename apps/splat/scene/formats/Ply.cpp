@@ -121,9 +121,11 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
   }
   for (const PlyProperty &P : Vertex.Properties) {
     if (const auto Meaning = unsupportedProperty(P.Name))
-      return Error{Where, fmt::format("property {} of element {} calls for {}, "
-                                      "which is not supported",
-                                      P.Name, Vertex.Name, *Meaning)};
+      return Error{
+          Where,
+          fmt::format(
+              "property {} of element {} requires {}, which is not supported",
+              P.Name, Vertex.Name, *Meaning)};
     if (!Known.contains(P.Name) && !isIgnored(P.Name))
       L.Skipped.push_back(P.Name);
   }

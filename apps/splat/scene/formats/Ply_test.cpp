@@ -159,7 +159,7 @@ TEST(Ply, PropertiesThatWouldChangeThePictureAreRefusedOthersNamed) {
     return Changed;
   };
   EXPECT_EQ(errorOf(Folder, With("filter_3D")),
-            "property filter_3D of element vertex calls for Mip-Splatting's 3D "
+            "property filter_3D of element vertex requires Mip-Splatting's 3D "
             "filter, which is not supported");
   EXPECT_NE(errorOf(Folder, With("trbf_center")).find("motion over time"),
             std::string::npos);

@@ -47,12 +47,13 @@ public:
     const auto Version = Root.find("version");
     IsFirst = Version == Root.end();
     if (!IsFirst && *Version != 2)
-      return metaError("another version, expected 2, or none for version 1");
+      return metaError(
+          "unsupported version, expected 2, or none for version 1");
     const Json &Claimed = countOf();
     if (!Claimed.is_number_unsigned())
       return metaError(IsFirst ? "no version, and means.shape[0] of version 1 "
-                                 "is no whole number, expected 1 or more"
-                               : "count is no whole number, expected 1 or "
+                                 "is not a whole number, expected 1 or more"
+                               : "count is not a whole number, expected 1 or "
                                  "more");
     Count = Claimed.get<uint64_t>();
     auto DrawnAs = drawing();
@@ -130,10 +131,10 @@ private:
           IsFirst ? static_cast<float>(ColorBooks[3][ColorPlane->at(I, 3)])
                   : byteOpacityLogits()[ColorPlane->at(I, 3)];
       if (!unpackQuat(*QuatPlane, I, &S.Quats[4 * To]))
-        return Error{file("quats", 0),
-                     fmt::format("rotation {} has the mark {}, expected 252 "
-                                 "to 255",
-                                 I, QuatPlane->at(I, 3))};
+        return Error{
+            file("quats", 0),
+            fmt::format("rotation {} has the mode {}, expected 252 to 255", I,
+                        QuatPlane->at(I, 3))};
       if (Harmonics.Degree > 0 && !Harmonics.copy(I, &S.Sh[ShEach * To + 3]))
         return Error{file("shN", 1),
                      fmt::format("Gaussian {} has palette entry {}, expected "
@@ -203,19 +204,20 @@ private:
     Drawing D;
     if (Flag != Root.end() && !Flag->is_null()) {
       if (!Flag->is_boolean())
-        return metaError("antialias is no truth value, expected true or false");
+        return metaError("antialias is not a Boolean, expected true or false");
       D = {Flag->get<bool>(), std::nullopt,
            fmt::format("antialias {}", Flag->get<bool>())};
     }
     if (Model == Root.end() || Model->is_null())
       return D;
     if (!Model->is_string())
-      return metaError("model is no name, expected default or antialiased");
+      return metaError(
+          "model is not a string, expected default or antialiased");
     auto Named = drawingOfModel(MetaWhere, Model->get<std::string>());
     if (Named && !D.Source.empty() && !Named->drawsAs(D))
-      return metaError(fmt::format("{} and {} contradict each other, expected "
-                                   "one of them",
-                                   Named->Source, D.Source));
+      return metaError(
+          fmt::format("{} and {} are contradictory, expected one of them",
+                      Named->Source, D.Source));
     return Named;
   }
 
@@ -333,8 +335,9 @@ private:
     const Plane &P = picture(Group, Index, Count);
     if (!Problem && P.pixels() < Count)
       fail({file(Group, Index),
-            fmt::format("{}x{} pixels, expected one for each of {} Gaussians",
-                        P.Width, P.Height, Count)});
+            fmt::format(
+                "{}x{} pixels, expected one pixel for each of {} Gaussians",
+                P.Width, P.Height, Count)});
     if (!FirstPlane)
       FirstPlane = &P;
     if (!Problem &&
@@ -388,10 +391,10 @@ private:
                    : -1;
     P.Entries = P.Centroids->Height * PaletteRow;
     if (P.Degree < 1)
-      fail({file("shN", 0),
-            fmt::format("{} pixels wide, expected {} for each coefficient of "
-                        "degree 1, 2 or 3",
-                        P.Centroids->Width, PaletteRow)});
+      fail(
+          {file("shN", 0), fmt::format("{} pixels wide, expected {} pixels for "
+                                       "each coefficient of degree 1, 2 or 3",
+                                       P.Centroids->Width, PaletteRow)});
   }
 
   void secondPalette(Palette &P) {
@@ -403,7 +406,7 @@ private:
     }
     P.Degree = Bands.get<int>();
     if (!Entries.is_number_unsigned()) {
-      fail(metaError("shN.count is no whole number, expected 1 or more"));
+      fail(metaError("shN.count is not a whole number, expected 1 or more"));
       return;
     }
     P.Entries = Entries.get<uint64_t>();
@@ -415,7 +418,7 @@ private:
                      P.Entries > P.Centroids->Height * PaletteRow))
       fail({file("shN", 0),
             fmt::format("{}x{} pixels for {} palette entries of degree {}, "
-                        "expected {} a row and {} rows",
+                        "expected {} per row and {} rows",
                         P.Centroids->Width, P.Centroids->Height, P.Entries,
                         P.Degree, Width,
                         P.Entries / PaletteRow +

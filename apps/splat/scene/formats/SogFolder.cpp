@@ -28,10 +28,11 @@ FileSource filesOf(const fs::path &Folder) {
   return [Folder](const std::string &Name,
                   std::size_t Most) -> Expected<std::vector<std::byte>> {
     if (!staysInside(Name))
-      return Error{Folder.string(),
-                   fmt::format("names the file `{}`, expected one inside the "
-                               "folder",
-                               printable(Name))};
+      return Error{
+          Folder.string(),
+          fmt::format(
+              "refers to the file `{}`, expected a file inside the folder",
+              printable(Name))};
     return readRegularFile((Folder / Name).string(), Most);
   };
 }
@@ -43,10 +44,11 @@ FileSource withoutRepeats(const std::string &Where, const FileSource &Read) {
              const std::string &Name,
              std::size_t Most) mutable -> Expected<std::vector<std::byte>> {
     if (!Names.insert(fs::path(Name).lexically_normal().string()).second)
-      return Error{Where,
-                   fmt::format("names the file `{}` twice, expected each "
-                               "file of a scene once",
-                               printable(Name))};
+      return Error{
+          Where,
+          fmt::format(
+              "refers to the file `{}` twice, expected one reference per file",
+              printable(Name))};
     return Read(Name, Most);
   };
 }
@@ -104,10 +106,10 @@ public:
     uint64_t End = 0, Count = 0;
     for (const Run &R : Runs) {
       if (R.Offset < End || R.Offset > Size || R.Count > Size - R.Offset)
-        return Error{Where, fmt::format("Gaussians {} to {} + {} of {} are "
-                                        "listed, expected runs apart from each "
-                                        "other inside the chunk",
-                                        R.Offset, R.Offset, R.Count, Size)};
+        return Error{Where,
+                     fmt::format("Gaussians {} to {} + {} of {} are listed, "
+                                 "expected disjoint ranges inside the chunk",
+                                 R.Offset, R.Offset, R.Count, Size)};
       End = R.Offset + R.Count;
       Count += R.Count;
     }
@@ -183,8 +185,8 @@ Expected<SceneFile> readChunks(const std::string &Path,
                                const ReadOptions &Options) {
   const auto Names = chunksOf(Path);
   if (Names.empty())
-    return Error{Path, "a folder without a scene, expected the file of one, or "
-                       "a folder with SOG's meta.json or lod-meta.json"};
+    return Error{Path, "a folder without a scene, expected a scene file, or a "
+                       "folder with SOG's meta.json or lod-meta.json"};
   // Writers call a chunk LEVEL_NUMBER. Several levels would be the same scene
   // several times, and only the index says which belong together.
   std::set<std::string> Levels;
@@ -193,7 +195,7 @@ Expected<SceneFile> readChunks(const std::string &Path,
       Levels.insert(Name.substr(0, Name.find('_')));
   if (Levels.size() > 1)
     return Error{Path, fmt::format("chunks of {} levels of detail, expected "
-                                   "one, or {} that tells them apart",
+                                   "one level, or {} to select one",
                                    Levels.size(), IndexName)};
   Joiner J(Options);
   const FileSource Files = filesOf(Path), Read = withoutRepeats(Path, Files);
@@ -224,7 +226,7 @@ public:
       const Json &Node = *Pending.back();
       Pending.pop_back();
       if (!Node.is_object())
-        return "a node of the tree is no object, expected children or lods";
+        return "a node of the tree is not an object, expected children or lods";
       if (const auto Children = Node.find("children"); Children != Node.end())
         for (const Json &Child : *Children)
           Pending.push_back(&Child);
@@ -247,17 +249,18 @@ private:
 
   std::optional<std::string> leaf(const Json &Lods) {
     if (!Lods.is_object())
-      return "lods of the tree is no object, expected runs by level";
+      return "lods of the tree is not an object, expected ranges by level";
     const auto Entry = Lods.find(Level);
     if (Entry == Lods.end())
       return std::nullopt; // nothing there at this level
     if (!Entry->is_object())
-      return "a run of the tree is no object, expected file, offset and count";
+      return "a range of the tree is not an object, expected file, offset and "
+             "count";
     const auto File = number(*Entry, "file"), Offset = number(*Entry, "offset"),
                Count = number(*Entry, "count");
     if (!File || !Offset || !Count || *File >= Files)
-      return fmt::format("a run of the tree is not whole, expected file (below "
-                         "{}), offset and count",
+      return fmt::format("a range of the tree is incomplete, expected file "
+                         "(below {}), offset and count",
                          Files);
     Runs[*File].push_back({*Offset, *Count});
     return std::nullopt;
@@ -275,10 +278,10 @@ Expected<Success> checkIndex(const std::string &Where, const Json &Index,
                         "SOG scene"};
   // Files from before the format had versions have none.
   if (const auto V = Index.find("version"); V != Index.end() && *V != 1)
-    return Error{Where, "another version of the index, expected 1"};
+    return Error{Where, "unsupported version of the index, expected 1"};
   const auto Levels = Index.find("lodLevels");
   if (Levels == Index.end() || !Levels->is_number_unsigned() || *Levels == 0)
-    return Error{Where, "lodLevels is no whole number, expected 1 or more"};
+    return Error{Where, "lodLevels is not a whole number, expected 1 or more"};
   if (*Levels <= Options.LevelOfDetail)
     return Error{Where,
                  fmt::format("no level of detail {}, expected less than {}",
@@ -288,9 +291,10 @@ Expected<Success> checkIndex(const std::string &Where, const Json &Index,
   if (Files == Index.end() || !Files->is_array() ||
       !std::all_of(Files->begin(), Files->end(),
                    [](const Json &F) { return F.is_string(); }))
-    return Error{Where, "filenames is no list of names, expected the chunks"};
+    return Error{Where,
+                 "filenames is not a list of strings, expected the chunks"};
   if (!Index.contains("tree"))
-    return Error{Where, "no tree, expected the chunks' places"};
+    return Error{Where, "no tree, expected the bounds of chunks"};
   return Success{};
 }
 

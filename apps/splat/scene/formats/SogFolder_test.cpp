@@ -251,8 +251,8 @@ TEST(SogFolder, ATreeDeeperThanAnySceneIsAnError) {
       {});
   ASSERT_FALSE(Read);
   EXPECT_EQ(Read.error().Where, "s: lod-meta.json");
-  EXPECT_EQ(Read.error().What, "lists and objects more than 256 deep in each "
-                               "other, expected fewer");
+  EXPECT_EQ(Read.error().What,
+            "lists and objects nested deeper than 256, expected fewer levels");
 }
 
 } // namespace

@@ -44,10 +44,10 @@ Expected<SceneFile> parseSplat(const std::string &Where, Bytes File,
   if (const std::size_t Left = File.size() % RecordSize; Left != 0)
     return Where.ends_with(".splat")
                ? Error{Where,
-                       fmt::format("{} bytes, {} more than whole Gaussians "
-                                   "take, expected a .splat of {} bytes a "
-                                   "Gaussian",
-                                   File.size(), Left, RecordSize)}
+                       fmt::format(
+                           "{} bytes, {} after the last complete Gaussian, "
+                           "expected a .splat of {} bytes per Gaussian",
+                           File.size(), Left, RecordSize)}
                : unknownFile(Where);
   const std::size_t Count = File.size() / RecordSize;
   SceneFile Result;
@@ -85,11 +85,11 @@ Expected<SceneFile> parseSplat(const std::string &Where, Bytes File,
   }
   // Other files of numbers get here, too.
   if (2 * Units < Count)
-    return Error{Where,
-                 fmt::format("{} of {} records have a rotation whose length is "
-                             "not 1, expected a .splat file, which has few "
-                             "such",
-                             Count - Units, Count)};
+    return Error{
+        Where,
+        fmt::format("{} of {} records have a rotation that is not normalized, "
+                    "expected a .splat file, where these are rare",
+                    Count - Units, Count)};
   return Result;
 }
 

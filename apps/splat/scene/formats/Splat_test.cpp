@@ -45,9 +45,8 @@ TEST(Splat, AnotherLengthIsToldWithWhatIsLeftOver) {
   const std::string Content(100, '\0');
   const auto Read = parseScene("a.splat", std::as_bytes(std::span(Content)));
   ASSERT_FALSE(Read);
-  EXPECT_EQ(Read.error().What,
-            "100 bytes, 4 more than whole Gaussians take, expected a .splat of "
-            "32 bytes a Gaussian");
+  EXPECT_EQ(Read.error().What, "100 bytes, 4 after the last complete Gaussian, "
+                               "expected a .splat of 32 bytes per Gaussian");
 }
 
 } // namespace

@@ -89,7 +89,7 @@ Expected<Header> readHeader(const std::string &Where, Bytes File) {
   const unsigned Known = AntialiasedFlag | (Version == 4 ? ExtensionsFlag : 0);
   if ((Flags & ~Known) != 0 || (Version < 4 && byteAt(File, 15) != 0))
     return Error{Where, fmt::format("flags {:#04x} and reserved byte {:#04x}, "
-                                    "expected no more than flag {:#04x}",
+                                    "expected only flag {:#04x}",
                                     Flags, byteAt(File, 15), Known)};
   return H;
 }
@@ -207,7 +207,7 @@ Expected<SceneFile> unpackArrays(const std::string &Where, const Header &H,
   const std::size_t Table = load<uint32_t>(File, 16);
   if (Table < HeaderSize4 || Table + Arrays * Entry > File.size())
     return Error{Where, fmt::format("a table of {} arrays at byte {}, expected "
-                                    "it behind the header and in the file",
+                                    "it after the header and in the file",
                                     Arrays, Table)};
   std::vector<std::byte> Body;
   std::size_t At = Table + Arrays * Entry;
@@ -216,9 +216,11 @@ Expected<SceneFile> unpackArrays(const std::string &Where, const Header &H,
                Size = load<uint64_t>(File, Table + I * Entry + 8);
     const std::size_t Needed = H.Count * H.sizes()[I];
     if (Packed > File.size() - At || Size != Needed)
-      return Error{Where, fmt::format("array {} has {} bytes, packed {}, "
-                                      "expected {} and the file to hold them",
-                                      I, Size, Packed, Needed)};
+      return Error{
+          Where,
+          fmt::format(
+              "array {} has {} bytes, packed {}, expected {} inside the file",
+              I, Size, Packed, Needed)};
     const auto Array = unpackZstd(Where, File.subspan(At, Packed), Needed);
     if (!Array)
       return Array.error();
@@ -226,9 +228,10 @@ Expected<SceneFile> unpackArrays(const std::string &Where, const Header &H,
     At += Packed;
   }
   if (At != File.size())
-    return Error{Where, fmt::format("{} after the last array, expected the "
-                                    "file's end",
-                                    counted(File.size() - At, "byte"))};
+    return Error{
+        Where,
+        fmt::format("{} after the last array, expected the end of the file",
+                    counted(File.size() - At, "byte"))};
   SceneFile Result = decode(H, Body);
   if (Table > HeaderSize4)
     Result.Skipped.push_back("extensions");

@@ -96,8 +96,8 @@ TEST(Spz, AStreamThatGoesOnBeyondTheHeadersCountIsAnError) {
   const std::string File = gzipOf(Body);
   const auto Read = parseScene("s", std::as_bytes(std::span(File)));
   ASSERT_FALSE(Read);
-  EXPECT_EQ(Read.error().What, "the gzip stream goes on, expected no more than "
-                               "its header says");
+  EXPECT_EQ(Read.error().What,
+            "the gzip stream is too long, expected the size in its header");
 }
 
 TEST(Spz, BytesOfEachVersion) {

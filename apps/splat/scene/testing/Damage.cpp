@@ -54,22 +54,22 @@ void addPlyDamage(std::vector<DamagedFile> &Out) {
                  replaced(Ply, "vertex 5", "vertex 18446744073709551615"),
                  "expected 18446744073709551615 rows"});
   Out.push_back({"no-count.ply", replaced(Ply, "vertex 5", "vertex -5"),
-                 "vertex count `-5` is no number"});
+                 "vertex count `-5` is not a number"});
   Out.push_back({"no-opacity.ply", replaced(Ply, "opacity", "opaquity"),
                  "property opacity of element vertex is missing"});
   Out.push_back({"seven-rest.ply",
                  replaced(Ply, "property float nx", "property float f_rest_9"),
                  "10 f_rest properties"});
   Out.push_back({"list.ply", replaced(Ply, "float nx", "list uchar float nx"),
-                 "the file ends in row 1 of element vertex, expected 5 rows"});
+                 "truncated in row 1 of element vertex, expected 5 rows"});
   Out.push_back({"no-end.ply", replaced(Ply, "end_header", "ent_header"),
                  "unknown header keyword `ent_header`"});
   Out.push_back({"short.ply", cut(Ply, 1), "bytes left for element vertex"});
   Out.push_back({"long.ply", Ply + "x", "1 byte after the last element"});
   Out.push_back({"nan.ply", patched(Ply, -4, NaN),
-                 "Gaussian 4 holds a NaN or an infinity"});
+                 "Gaussian 4 has a NaN or an infinity"});
   Out.push_back({"infinite.ply", patched(Ply, -4, Infinity),
-                 "Gaussian 4 holds a NaN or an infinity"});
+                 "Gaussian 4 has a NaN or an infinity"});
   Out.push_back(
       {"empty-scene.ply", formatPly(Scene::sized(0, 0)), "no Gaussian"});
 }
@@ -91,7 +91,7 @@ void addCompressedPlyDamage(std::vector<DamagedFile> &Out) {
                  "property packed_color of element vertex has another type"});
   Out.push_back({"nan-bound.compressed.ply",
                  patched(Ply, static_cast<std::ptrdiff_t>(Body), NaN),
-                 "Gaussian 0 holds a NaN"});
+                 "Gaussian 0 has a NaN"});
   Out.push_back({"rest.compressed.ply",
                  replaced(Ply, "property uchar f_rest_8\n", ""),
                  "bytes after the last element"});
@@ -105,7 +105,7 @@ void addCompressedPlyDamage(std::vector<DamagedFile> &Out) {
 void addSplatDamage(std::vector<DamagedFile> &Out) {
   const std::string Splat = splatOf(sample(0));
   Out.push_back(
-      {"short.splat", cut(Splat, 1), "not a scene of a known format"});
+      {"short.splat", cut(Splat, 1), "not a scene in a known format"});
   Out.push_back(
       {"nan.splat", patched(Splat, 36, NaN), "record 1 has position nan"});
   Out.push_back({"infinite.splat", patched(Splat, 12, Infinity),
@@ -116,7 +116,7 @@ void addSplatDamage(std::vector<DamagedFile> &Out) {
   Out.push_back({"text.splat",
                  "this text has sixty-four bytes, so it could be two "
                  "records......",
-                 "not a scene of a known format"});
+                 "not a scene in a known format"});
 }
 
 void addSpzDamage(std::vector<DamagedFile> &Out) {
@@ -124,15 +124,15 @@ void addSpzDamage(std::vector<DamagedFile> &Out) {
   Out.push_back({"compression.ksplat", patched(K, 20, uint16_t(3)),
                  "compression 3, expected 0, 1 or 2"});
   Out.push_back({"sections.ksplat", patched(K, 4, uint32_t(-1)),
-                 "4294967295 sections, expected the file to hold"});
+                 "4294967295 sections, expected a file with"});
   Out.push_back({"degree.ksplat", patched(K, 4096 + 40, uint16_t(4)),
                  "section 0 has degree 4"});
   Out.push_back({"room.ksplat", patched(K, 4096, uint32_t(9)),
-                 "section 0 has 9 Gaussians, expected no more than"});
+                 "section 0 has 9 Gaussians, expected at most"});
   Out.push_back({"record.ksplat", patched(K, 4096 + 20, uint16_t(16)),
                  "section 0 has buckets of 16 bytes, expected 12"});
   Out.push_back({"huge.ksplat", patched(K, 4096 + 4, uint32_t(-1)),
-                 "expected the file to hold it"});
+                 "expected an end inside the file"});
   Out.push_back({"buckets.ksplat", patched(K, 4096 + 32, uint32_t(7)),
                  "section 0 has 7 full and 1 other buckets"});
   Out.push_back({"bucket.ksplat", patched(K, 4096 + 2 * 1024, uint32_t(1)),
@@ -158,7 +158,7 @@ void addSpzDamage(std::vector<DamagedFile> &Out) {
   Out.push_back({"arrays.v4.spz", patched(Four, 15, uint8_t(5)),
                  "a header of 5 arrays, expected 6"});
   Out.push_back({"table.v4.spz", patched(Four, 16, uint32_t(8)),
-                 "a table of 6 arrays at byte 8, expected it behind"});
+                 "a table of 6 arrays at byte 8, expected it after"});
   Out.push_back({"packed.v4.spz", patched(Four, 32, uint64_t(1) << 60),
                  "array 0 has 45 bytes, packed 1152921504606846976"});
   Out.push_back({"size.v4.spz", patched(Four, 40, uint64_t(1) << 60),
@@ -208,10 +208,10 @@ std::vector<DamagedFolder> sogDamage() {
     M.erase("version");
     M["means"]["shape"] = {5, 3};
   });
-  Meta("version3", "another version", [](Json &M) { M["version"] = 3; });
-  Meta("count-text", "count is no whole number",
+  Meta("version3", "unsupported version", [](Json &M) { M["version"] = 3; });
+  Meta("count-text", "count is not a whole number",
        [](Json &M) { M["count"] = "5"; });
-  Meta("count-huge", "expected one for each of 18446744073709551615",
+  Meta("count-huge", "expected one pixel for each of 18446744073709551615",
        [](Json &M) { M["count"] = uint64_t(-1); });
   Meta("count-zero", "no Gaussian", [](Json &M) { M["count"] = 0; });
   Meta("no-means", "means.files: expected the name",
@@ -222,11 +222,11 @@ std::vector<DamagedFolder> sogDamage() {
        [](Json &M) { M["scales"]["codebook"][0] = nullptr; });
   Meta("codebook-short", "sh0.codebook: expected 256 finite numbers",
        [](Json &M) { M["sh0"]["codebook"].erase(0); });
-  Meta("codebook-huge", "holds a NaN or an infinity", [](Json &M) {
+  Meta("codebook-huge", "has a NaN or an infinity", [](Json &M) {
     for (Json &V : M["scales"]["codebook"])
       V = 1e200;
   });
-  Meta("means-huge", "holds a NaN or an infinity",
+  Meta("means-huge", "has a NaN or an infinity",
        [](Json &M) { M["means"]["maxs"] = {1e9, 1e9, 1e9}; });
   Meta("bands", "shN.bands: expected 1, 2 or 3",
        [](Json &M) { M["shN"]["bands"] = 4; });
@@ -242,7 +242,7 @@ std::vector<DamagedFolder> sogDamage() {
   File("plane-short", "quats.webp", cut(Whole.at("quats.webp"), 8),
        "damaged WebP picture");
   File("plane-small", "quats.webp", webpOf(2, 2, std::string(16, '\xff')),
-       "2x2 pixels, expected one for each of 5 Gaussians");
+       "2x2 pixels, expected one pixel for each of 5 Gaussians");
   // Each has room for all, but a Gaussian has one place.
   for (const char *Plane :
        {"means_u.webp", "scales.webp", "sh0.webp", "shN_labels.webp"})
@@ -253,7 +253,7 @@ std::vector<DamagedFolder> sogDamage() {
        webpOf(4096, 4096, std::string(std::size_t(4) << 24, '\xff')),
        "4096x4096 pixels in a file of");
   File("rotation-mark", "quats.webp", webpOf(3, 2, std::string(24, '\x10')),
-       "rotation 0 has the mark 16, expected 252 to 255");
+       "rotation 0 has the mode 16, expected 252 to 255");
   return Out;
 }
 
@@ -340,7 +340,7 @@ std::vector<DamagedFolder> damagedFolders() {
   Out.push_back({"no-plane", F, "cannot open: No such file"});
   F = Whole;
   F["meta.json"] = replaced(F["meta.json"], "scales.webp", "../scales.webp");
-  Out.push_back({"outside", F, "expected one inside the folder"});
+  Out.push_back({"outside", F, "expected a file inside the folder"});
   Out.push_back({"nothing", {{"readme.txt", "empty"}}, "a folder without"});
 
   const Folder Streamed = streamedSogOf(sample(0), sample(0), sample(0));
@@ -352,20 +352,20 @@ std::vector<DamagedFolder> damagedFolders() {
     Changed["lod-meta.json"] = J.dump();
     Out.push_back({Name, std::move(Changed), Message});
   };
-  Index("index-version", "another version of the index",
+  Index("index-version", "unsupported version of the index",
         [](Json &J) { J["version"] = 2; });
-  Index("index-levels", "lodLevels is no whole number",
+  Index("index-levels", "lodLevels is not a whole number",
         [](Json &J) { J["lodLevels"] = 0; });
-  Index("index-names", "filenames is no list of names",
+  Index("index-names", "filenames is not a list of strings",
         [](Json &J) { J["filenames"][0] = 7; });
   Index("index-tree", "no tree", [](Json &J) { J.erase("tree"); });
-  Index("tree-node", "a node of the tree is no object",
+  Index("tree-node", "a node of the tree is not an object",
         [](Json &J) { J["tree"]["children"][0] = 7; });
-  Index("tree-file", "a run of the tree is not whole",
+  Index("tree-file", "a range of the tree is incomplete",
         [](Json &J) { J["tree"]["children"][0]["lods"]["0"]["file"] = 3; });
-  Index("tree-overlap", "expected runs apart",
+  Index("tree-overlap", "expected disjoint ranges",
         [](Json &J) { J["tree"]["children"][0]["lods"]["0"]["offset"] = 0; });
-  Index("tree-long", "expected runs apart", [](Json &J) {
+  Index("tree-long", "expected disjoint ranges", [](Json &J) {
     J["tree"]["children"][0]["lods"]["0"]["count"] = uint64_t(-1);
   });
   F = Streamed;

@@ -30,8 +30,7 @@ Expected<std::vector<uint8_t>> countsOf(const CaptureView &V, const Plane &P,
       return Mask.error();
     if (Mask->Width != P.Width || Mask->Height != P.Height)
       return Error{V.Mask,
-                   fmt::format("{}x{} pixels, expected {}x{} as its "
-                               "picture has",
+                   fmt::format("{}x{} pixels, expected {}x{} as in its picture",
                                Mask->Width, Mask->Height, P.Width, P.Height)};
     for (std::size_t I = 0; I < P.pixels(); ++I)
       Counts.push_back(
@@ -64,8 +63,9 @@ Expected<TrainView> load(const CaptureView &V, const CapturePoints &Points,
   if (std::ranges::find(T.Counts, 0) == T.Counts.end())
     T.Counts.clear();
   else if (std::ranges::find(T.Counts, 1) == T.Counts.end())
-    return Error{V.Mask.empty() ? V.Picture : V.Mask,
-                 "no pixel counts, expected some"};
+    return Error{
+        V.Mask.empty() ? V.Picture : V.Mask,
+        "all pixels are masked out, expected at least one unmasked pixel"};
   for (std::size_t I = 0; I < T.Counts.size(); ++I)
     if (T.Counts[I] == 0)
       std::fill_n(T.Picture.Rgb.begin() + static_cast<std::ptrdiff_t>(3 * I), 3,

@@ -75,7 +75,7 @@ TEST(TrainingSet, MasksAndAlphaSayWhichPixelsCount) {
   const auto Small = loadTrainingSet(
       *readCapture(G.path(), {{}, false, MaskSource::Files}), {});
   ASSERT_FALSE(Small);
-  EXPECT_EQ(Small.error().What, "2x2 pixels, expected 8x6 as its picture has");
+  EXPECT_EQ(Small.error().What, "2x2 pixels, expected 8x6 as in its picture");
 
   // The loss would be 0 over 0.
   std::string Black;
@@ -87,7 +87,8 @@ TEST(TrainingSet, MasksAndAlphaSayWhichPixelsCount) {
       *readCapture(H.path(), {{}, false, MaskSource::Files}), {});
   ASSERT_FALSE(None);
   EXPECT_NE(None.error().Where.find("masks/a1.png"), std::string::npos);
-  EXPECT_EQ(None.error().What, "no pixel counts, expected some");
+  EXPECT_EQ(None.error().What,
+            "all pixels are masked out, expected at least one unmasked pixel");
 }
 
 TEST(TrainingSet, APictureOfALensIsUndistorted) {

@@ -175,9 +175,10 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
     After = total(Counts, S.Count);
   }
   if (!Launch.failure() && After == 0)
-    Launch.fail(
-        {"", "density control dropped every Gaussian, expected some to stay",
-         ExitCode::LimitReached});
+    Launch.fail({"",
+                 "density control pruned every Gaussian, expected at least one "
+                 "to remain",
+                 ExitCode::LimitReached});
   if (Launch.failure())
     return {};
 

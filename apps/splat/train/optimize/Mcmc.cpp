@@ -52,8 +52,8 @@ McmcControl::Weights McmcControl::weigh(const DeviceScene &S, float DeadLogit) {
   W.Total = total(Each, W.Sums, S.Count);
   if (!Launch.failure() && W.Total == 0)
     Launch.fail({"",
-                 "every Gaussian is as good as transparent, expected some to "
-                 "draw from",
+                 "every Gaussian is practically transparent, expected at least "
+                 "one visible Gaussian to sample",
                  ExitCode::LimitReached});
   return W;
 }

@@ -121,7 +121,8 @@ Expected<Header> readHeader(std::string_view Text, const std::string &Path) {
 }
 
 Error damaged(const std::string &Path) {
-  return {Path, "damaged checkpoint, expected the bytes that were written"};
+  return {Path, "damaged checkpoint: its hash does not match, expected an "
+                "unmodified file"};
 }
 
 } // namespace
@@ -165,9 +166,9 @@ Expected<Checkpoint> parseCheckpoint(const std::string &Path, Bytes File) {
   };
   const std::string_view First = Line();
   if (!First.starts_with(fmt::format("{} {} ", Magic, Version)))
-    return Error{Path, fmt::format("{}: another version of checkpoints, "
-                                   "expected {}",
-                                   printable(First), Version)};
+    return Error{Path,
+                 fmt::format("{}: unsupported checkpoint version, expected {}",
+                             printable(First), Version)};
   if (First != fmt::format("{} {} {}", Magic, Version, fnv1a64(Text)))
     return damaged(Path);
   const std::string_view HeaderText = Line();

@@ -53,8 +53,8 @@ double ClockSamples::rate() const { return 1e3 / meanOf(Milliseconds); }
 
 std::string ClockSamples::text() const {
   const auto [Least, Most] = std::ranges::minmax(Milliseconds);
-  return fmt::format("{:.3f} it/s; {:.3f} ms an iteration, standard deviation "
-                     "{:.3f}, {:.3f} to {:.3f}, of {} that were timed",
+  return fmt::format("{:.3f} it/s; {:.3f} ms per iteration, standard deviation "
+                     "{:.3f}, range {:.3f} to {:.3f}, {} timed",
                      rate(), meanOf(Milliseconds), deviationOf(Milliseconds),
                      Least, Most, Milliseconds.size());
 }

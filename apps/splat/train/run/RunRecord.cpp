@@ -126,12 +126,12 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
 static std::string_view inputOf(std::string_view Key) {
   if (Key == "pictures")
     return ", hashes of all pictures and poses: --exclude, --downscale and "
-           "changed files make others";
+           "changed files change them";
   if (Key == "extent")
     return ", from the cameras of training: --hold-out, --exclude and changed "
-           "files make others";
+           "files change it";
   if (Key == "points")
-    return ", hashes of the points that a run starts from";
+    return ", hashes of the initial points";
   return "";
 }
 

@@ -228,12 +228,11 @@ StepReport Trainer::step() {
   }
   R.Loss = Batch.loss();
   if (!std::isfinite(R.Loss.Value))
-    Launch.fail(
-        {"",
-         fmt::format("the loss of iteration {} is {}, expected a number: "
-                     "the scene has become none",
-                     R.Iteration, R.Loss.Value),
-         ExitCode::GuestFailed});
+    Launch.fail({"",
+                 fmt::format("the loss of iteration {} is {}, expected a "
+                             "finite loss: training diverged",
+                             R.Iteration, R.Loss.Value),
+                 ExitCode::GuestFailed});
   Launch.beginStage(Stage::Adam);
   if (isRegularized(Settings))
     regularize(Launch, Settings, State, Batch.gradients());
@@ -273,12 +272,11 @@ Photo Trainer::render(const Camera &C) {
   Launch.read("picture", Rgba.data(), Picture, 4 * Rgba.size());
   // As a byte a NaN would be black.
   if (std::ranges::any_of(Rgba, [](float V) { return std::isnan(V); }))
-    Launch.fail(
-        {"",
-         fmt::format("view {} of the trained scene has values that are no "
-                     "numbers, expected a picture",
-                     printable(C.Name)),
-         ExitCode::GuestFailed});
+    Launch.fail({"",
+                 fmt::format("view {} of the trained scene has non-finite "
+                             "values, expected a picture",
+                             printable(C.Name)),
+                 ExitCode::GuestFailed});
   P.Rgb.reserve(3 * Pixels);
   for (std::size_t I = 0; I < Pixels; ++I)
     for (std::size_t K = 0; K < 3; ++K)

@@ -70,16 +70,16 @@ void noteStart(const Work &W) {
   const std::size_t Points = W.Photos.Points.size(),
                     Most = W.Request.Run.Settings.MostGaussians;
   if (Points > Most)
-    W.Host.Note(fmt::format("training starts from {} of {} points, because of "
-                            "--max-gaussians",
-                            Most, Points));
+    W.Host.Note(fmt::format(
+        "training starts from {} of {} points, limited by --max-gaussians",
+        Most, Points));
   if (Points != 0)
     return;
   const std::size_t Seeing = viewsOfRandomPoints(W.Photos);
   if (2 * Seeing < W.Photos.Views.size())
     W.Host.Note(fmt::format(
         "the capture has no points, and {} of {} views see the origin, around "
-        "which training starts from random ones (docs/captures.md)",
+        "which random initial points are placed (docs/captures.md)",
         Seeing, W.Photos.Views.size()));
 }
 
@@ -104,14 +104,14 @@ void noteRoom(const Work &W, const Device &D) {
       W.Out.Moments == MomentsOn::Host)
     W.Host.Note(fmt::format(
         "{} holds at most {} Gaussians of SH degree {} with Adam's moments, "
-        "and --max-gaussians allows {}: the moments stay on the host, which "
-        "changes no bit",
+        "and --max-gaussians allows {}: the moments are stored on the host; "
+        "results are bit-identical",
         D.name(), Holds(MomentsOn::Device), W.Request.ShDegree, Most));
   if (Most > Holds(W.Out.Moments))
     W.Host.Note(fmt::format(
-        "{} holds at most {} Gaussians of SH degree {} in training, less what "
-        "pictures take, and --max-gaussians allows {}: a scene that outgrows "
-        "it ends the run",
+        "{} holds at most {} Gaussians of SH degree {} in training, less the "
+        "memory for pictures, and --max-gaussians allows {}: the run fails if "
+        "the scene exceeds this",
         D.name(), Holds(W.Out.Moments), W.Request.ShDegree, Most));
 }
 
@@ -123,8 +123,9 @@ void noteWithoutGradient(const Work &W, const StepReport &Step, bool &Said) {
   Said = true;
   W.Host.EndProgress();
   W.Host.Note(fmt::format(
-      "iteration {}: {} of {} Gaussians had no gradient since the change of "
-      "density before: no picture shows them, or none with an alpha of 1/255",
+      "iteration {}: {} of {} Gaussians had no gradient since the previous "
+      "step of density control: they are outside all pictures, or their alpha "
+      "is below 1/255",
       Step.Iteration, Step.Density->WithoutGradient, Step.Density->Before));
 }
 
@@ -152,11 +153,10 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
     // All processes then end with it at the next step.
     if (Timed && !Samples.add({Step.Iteration, Step.Gaussians,
                                Renderer.listLengths(), std::move(Stages)}))
-      Launch.fail(
-          {"",
-           "the device gave no time of a kernel, expected a runtime that "
-           "knows VORION_TIME=profiled",
-           ExitCode::Internal});
+      Launch.fail({"",
+                   "the device reported no kernel time, expected a runtime "
+                   "that supports VORION_TIME=profiled",
+                   ExitCode::Internal});
     if (W.Processes.first())
       noteWithoutGradient(W, Step, SaidWithoutGradient);
     if (W.Processes.first())
@@ -181,8 +181,8 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
   W.Out.Seconds = secondsSince(Start);
   if (T.iteration() < W.Replaced)
     return Error{W.Request.Checkpoint,
-                 fmt::format("stays at iteration {}: interrupted after {} of "
-                             "{}, which is not kept",
+                 fmt::format("remains at iteration {}: interrupted after {} of "
+                             "{} without saving",
                              W.Replaced, T.iteration(), Last),
                  codeOfInterrupt()};
   if (auto Kept = keep(W, Launch, T); !Kept)
@@ -190,7 +190,7 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
   if (T.iteration() < Last)
     return Error{W.Request.Checkpoint,
                  fmt::format("interrupted after iteration {} of {}, which is "
-                             "kept; --resume goes on",
+                             "saved; --resume continues from it",
                              T.iteration(), Last),
                  codeOfInterrupt()};
   return Success{};
@@ -204,10 +204,9 @@ Expected<Success> checkSameStart(const Work &W, unsigned Iteration) {
   W.Processes.share(0, First.data(), First.size());
   if (First == Mine)
     return W.Processes.agree(Success{});
-  return W.Processes.agree(
-      Error{W.Request.Capture,
-            "another capture or checkpoint, expected those of the first "
-            "process"});
+  return W.Processes.agree(Error{
+      W.Request.Capture,
+      "another capture or checkpoint, expected those of the first process"});
 }
 
 /// Gives \p T the run's own checkpoint.
@@ -219,16 +218,17 @@ Expected<Success> resume(const Work &W, Trainer &T) {
   if (auto Same = checkSameRun(R.Checkpoint, Kept->Run, W.Record); !Same)
     return Same;
   if (Kept->Iteration > R.Run.Settings.Iterations)
-    return Error{R.Checkpoint,
-                 fmt::format("after iteration {} already, expected "
-                             "--iterations of at least that, not {}",
-                             Kept->Iteration, R.Run.Settings.Iterations),
-                 ExitCode::Usage};
+    return Error{
+        R.Checkpoint,
+        fmt::format(
+            "has iteration {}, expected --iterations of at least that, not {}",
+            Kept->Iteration, R.Run.Settings.Iterations),
+        ExitCode::Usage};
   T.restore(*Kept);
   W.Out.ResumedAfter = T.iteration();
   if (W.Processes.first())
-    W.Host.Note(fmt::format("going on after iteration {} of {}", T.iteration(),
-                            R.Checkpoint));
+    W.Host.Note(fmt::format("continuing after iteration {} of {}",
+                            T.iteration(), R.Checkpoint));
   return Success{};
 }
 
@@ -263,7 +263,7 @@ Expected<Success> checkReplaced(Work &W, unsigned Begin) {
   const auto Kept = readCheckpoint(R.Checkpoint);
   if (!Kept)
     return Error{Kept.error().Where,
-                 fmt::format("{}; it is not replaced: name another "
+                 fmt::format("{}; it is not overwritten: use another "
                              "--checkpoint, or remove the file",
                              Kept.error().What),
                  Kept.error().Code};
@@ -272,14 +272,14 @@ Expected<Success> checkReplaced(Work &W, unsigned Begin) {
       std::min(R.Run.Settings.Iterations, (Begin / Every + 1) * Every);
   if (Kept->Iteration > First)
     return Error{R.Checkpoint,
-                 fmt::format("has iteration {}, and would be replaced by "
-                             "iteration {}, expected --resume to go on, "
-                             "another --checkpoint, or no such file",
+                 fmt::format("has iteration {}, and would be overwritten by "
+                             "iteration {}, expected --resume to continue from "
+                             "it, another --checkpoint, or no such file",
                              Kept->Iteration, First),
                  ExitCode::Usage};
   if (W.Processes.first() && Kept->Iteration < R.Run.Settings.Iterations)
-    W.Host.Note(fmt::format("begins anew; {} has iteration {}, from which "
-                            "--resume goes on",
+    W.Host.Note(fmt::format("starts from scratch; {} has iteration {}, from "
+                            "which --resume continues",
                             R.Checkpoint, Kept->Iteration));
   W.Replaced = Kept->Iteration;
   return Success{};
@@ -291,8 +291,8 @@ Expected<Success> start(Work &W, Trainer &T) {
   if (R.Resume && std::filesystem::exists(R.Checkpoint))
     return resume(W, T);
   if (R.Resume && W.Processes.first())
-    W.Host.Note(fmt::format("begins anew; there is no {} from which --resume "
-                            "goes on",
+    W.Host.Note(fmt::format("starts from scratch; there is no {} from which "
+                            "--resume could continue",
                             R.Checkpoint));
   if (auto Begun = begin(W, T); !Begun)
     return Begun;
@@ -304,8 +304,8 @@ Expected<Success> start(Work &W, Trainer &T) {
 Expected<Success> complete(TrainRequest &R, const Capture &C) {
   R.Run.Extent = cameraRing(C).extent();
   if (!(R.Run.Extent > 0))
-    return Error{R.Capture, "all training cameras are at one place, expected "
-                            "them around the scene"};
+    return Error{R.Capture, "all training cameras have the same position, "
+                            "expected cameras around the scene"};
   if (R.From.empty()) {
     R.Run.Points = hashPoints(C.Points);
     return Success{};
@@ -384,9 +384,9 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   if (!Model)
     return Model.error();
   if (looksAtDepths(R.Run.Settings) && Pictures->depths() == 0)
-    return Error{R.Capture, "no training picture shows a point of the capture, "
-                            "expected COLMAP's points with their tracks for "
-                            "--depth-weight"};
+    return Error{R.Capture,
+                 "no training picture observes a point of the capture, "
+                 "expected COLMAP's points with tracks for --depth-weight"};
   const PictureSource Source{std::string(name(C->Format)), R.Downscale};
   Work W{R,
          Host,
@@ -400,8 +400,8 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   if (!D)
     return D.error();
   Launcher Launch(*D, "", {});
-  Launch.setRemedy("less as --max-gaussians, or smaller pictures "
-                   "(--downscale)");
+  Launch.setRemedy(
+      "a smaller --max-gaussians, or smaller pictures (--downscale)");
   Out.Moments = placeOfMoments(R, *D);
   if (Processes.first())
     noteRoom(W, *D);

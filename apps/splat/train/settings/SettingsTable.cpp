@@ -28,71 +28,91 @@ constexpr auto Classic = DensityMethod::Classic, Mcmc = DensityMethod::Mcmc;
 
 constexpr SettingField Fields[] = {
     {"iterations", "iterations", &S::Iterations, 1, Many, {}, false},
-    {"max_gaussians", "most Gaussians", &S::MostGaussians, 4, 1e8, {}, false},
-    {"beta1", "Adam's decay of gradients", &S::Beta1, 0, 0.999999},
-    {"beta2", "Adam's decay of their squares", &S::Beta2, 0, 0.99999999},
-    {"epsilon", "Adam's summand of the divisor", &S::Epsilon, 1e-30, 1},
-    {"position_rate", "rate of positions at first, over the cameras' extent",
+    {"max_gaussians",
+     "maximum number of Gaussians",
+     &S::MostGaussians,
+     4,
+     1e8,
+     {},
+     false},
+    {"beta1", "Adam's decay rate of the first moment", &S::Beta1, 0, 0.999999},
+    {"beta2", "Adam's decay rate of the second moment", &S::Beta2, 0,
+     0.99999999},
+    {"epsilon", "Adam's epsilon in the denominator", &S::Epsilon, 1e-30, 1},
+    {"position_rate",
+     "initial learning rate of positions, relative to the cameras' extent",
      &S::PositionRate, 1e-30, Large},
-    {"last_position_rate", "the same at last", &S::LastPositionRate, 1e-30,
-     Large},
-    {"position_steps", "iterations from the first rate to the last",
+    {"last_position_rate", "final learning rate of positions",
+     &S::LastPositionRate, 1e-30, Large},
+    {"position_steps", "iterations of the decay of the position rate",
      &S::PositionSteps, 1, Many},
-    {"colour_rate", "rate of the constant band of colours", &S::ColourRate, 0,
-     Large},
-    {"later_colour_rate", "rate of the other bands", &S::LaterColourRate, 0,
-     Large},
-    {"opacity_rate", "rate of opacities", &S::OpacityRate, 0, Large},
-    {"scale_rate", "rate of scales", &S::ScaleRate, 0, Large},
-    {"rotation_rate", "rate of rotations", &S::RotationRate, 0, Large},
-    {"exposure_rate", "rate of the pictures' exposures at first; 0 for none",
+    {"colour_rate", "learning rate of the SH coefficients of degree 0",
+     &S::ColourRate, 0, Large},
+    {"later_colour_rate", "learning rate of the other SH coefficients",
+     &S::LaterColourRate, 0, Large},
+    {"opacity_rate", "learning rate of opacities", &S::OpacityRate, 0, Large},
+    {"scale_rate", "learning rate of scales", &S::ScaleRate, 0, Large},
+    {"rotation_rate", "learning rate of rotations", &S::RotationRate, 0, Large},
+    {"exposure_rate",
+     "initial learning rate of the pictures' exposures (0: off)",
      &S::ExposureRate, 0, Large},
-    {"last_exposure_rate", "the same at last", &S::LastExposureRate, 1e-30,
-     Large},
-    {"pose_rate", "rate of the corrections of poses at first; 0 for none",
+    {"last_exposure_rate", "final learning rate of exposures",
+     &S::LastExposureRate, 1e-30, Large},
+    {"pose_rate", "initial learning rate of pose corrections (0: off)",
      &S::PoseRate, 0, Large},
-    {"last_pose_rate", "the same at last", &S::LastPoseRate, 1e-30, Large},
-    {"dssim", "share of 1 - SSIM in the loss", &S::DSsim, 0, 1},
+    {"last_pose_rate", "final learning rate of pose corrections",
+     &S::LastPoseRate, 1e-30, Large},
+    {"dssim", "weight of 1 - SSIM in the loss", &S::DSsim, 0, 1},
     {"opacity_weight", "weight of the mean opacity in the loss",
      &S::OpacityWeight, 0, Large},
     {"scale_weight", "weight of the mean scale in the loss", &S::ScaleWeight, 0,
      Large},
     {"depth_weight",
-     "weight of the depths of the capture's points in the loss; 0 for none",
+     "weight of the depth loss on the capture's points (0: off)",
      &S::DepthWeight, 0, Large},
-    {"sh_interval", "iterations from a band of colours to the next",
+    {"sh_interval", "iterations between increments of the SH degree",
      &S::ShInterval, 1, Many},
-    {"start_opacity", "opacity of the first Gaussians", &S::StartOpacity, Faint,
+    {"start_opacity", "initial opacity of Gaussians", &S::StartOpacity, Faint,
      Opaque},
-    {"start_scale", "their scales, over the neighbours' distance",
+    {"start_scale",
+     "initial scale of Gaussians, relative to the distance of their neighbours",
      &S::StartScale, 1e-6, 1e6},
-    {"densify_interval", "iterations from a change of density to the next",
+    {"densify_interval", "iterations between steps of density control",
      &S::DensifyInterval, 1, Many},
-    {"densify_after", "no change of density until then", &S::DensifyAfter, 0,
-     Many},
-    {"densify_until", "nor from then on", &S::DensifyUntil, 0, Many},
-    {"densify_gradient", "gradient above which a Gaussian grows, half pictures",
+    {"densify_after", "iteration after which density control starts",
+     &S::DensifyAfter, 0, Many},
+    {"densify_until", "iteration at which density control ends",
+     &S::DensifyUntil, 0, Many},
+    {"densify_gradient",
+     "2D position gradient above which a Gaussian is densified, per half "
+     "picture",
      &S::DensifyGradient, 0, Large, Classic},
-    {"split_extent", "scale above which it splits, over the cameras' extent",
+    {"split_extent",
+     "scale above which it is split and not cloned, relative to the cameras' "
+     "extent",
      &S::SplitExtent, 1e-12, Large, Classic},
-    {"split_shrink", "divisor of the scales of a split's halves",
+    {"split_shrink",
+     "divisor of the scales of the two parts of a split Gaussian",
      &S::SplitShrink, 1e-3, 1e3, Classic},
-    {"least_opacity", "opacity below which a Gaussian is dropped or moved",
+    {"least_opacity", "opacity below which a Gaussian is pruned or relocated",
      &S::LeastOpacity, Faint, Opaque},
-    {"most_extent", "scale above which one is dropped, over the extent",
+    {"most_extent",
+     "scale above which a Gaussian is pruned, relative to the cameras' extent",
      &S::MostExtent, 1e-12, Large, Classic},
-    {"most_radius", "radius above which one is dropped, pixels", &S::MostRadius,
-     0, Large, Classic},
-    {"reset_interval", "iterations from a reset of opacities to the next",
-     &S::ResetInterval, 1, Many, Classic},
-    {"reset_opacity", "opacity that a reset leaves", &S::ResetOpacity, Faint,
-     Opaque, Classic},
-    {"white_reset", "iteration of one more on white; 0 for none",
+    {"most_radius", "radius in pixels above which a Gaussian is pruned",
+     &S::MostRadius, 0, Large, Classic},
+    {"reset_interval", "iterations between opacity resets", &S::ResetInterval,
+     1, Many, Classic},
+    {"reset_opacity", "upper bound of opacities after a reset",
+     &S::ResetOpacity, Faint, Opaque, Classic},
+    {"white_reset",
+     "iteration of an additional opacity reset on a white background (0: off)",
      &S::WhiteReset, 0, Many, Classic},
-    {"grow_share", "Gaussians that a change adds, over those that there are",
+    {"grow_share",
+     "Gaussians added by a step of density control, relative to their number",
      &S::GrowShare, 0, 10, Mcmc},
-    {"noise_rate", "random steps, over the rate of positions", &S::NoiseRate, 0,
-     Large, Mcmc}};
+    {"noise_rate", "scale of the position noise, relative to the position rate",
+     &S::NoiseRate, 0, Large, Mcmc}};
 
 /// gsplat's default strategy, which drops nothing by its radius.
 TrainSettings gsplatSettings() {
@@ -140,11 +160,11 @@ Expected<Success> take(const std::string &Where, const std::string &Key,
         To.Method = M;
         return Success{};
       }
-    return Error{Where, "key density is wrong, expected classic or mcmc"};
+    return Error{Where, "key density is invalid, expected classic or mcmc"};
   }
   if (Key == "absgrad") {
     if (!Value.is_boolean())
-      return Error{Where, "key absgrad is wrong, expected true or false"};
+      return Error{Where, "key absgrad is invalid, expected true or false"};
     To.AbsoluteGradient = Value.get<bool>();
     return Success{};
   }
@@ -153,14 +173,16 @@ Expected<Success> take(const std::string &Where, const std::string &Key,
     std::vector<std::string> Known{"preset", "density", "absgrad"};
     for (const SettingField &F : Fields)
       Known.emplace_back(F.Name);
-    return Error{Where, fmt::format("key {} is no setting{}", printable(Key),
-                                    didYouMean(Key, Known))};
+    return Error{Where,
+                 fmt::format("key {} is unknown, expected a hyperparameter{}",
+                             printable(Key), didYouMean(Key, Known))};
   }
   if (!Value.is_number() || !Field->takes(Value.get<double>()))
-    return Error{Where, fmt::format("key {} is wrong, expected a {}number, {} "
-                                    "to {}",
-                                    Key, Field->isWhole() ? "whole " : "",
-                                    Field->Least, Field->Most)};
+    return Error{Where,
+                 fmt::format("key {} is invalid, expected a {}number, {} "
+                             "to {}",
+                             Key, Field->isWhole() ? "whole " : "",
+                             Field->Least, Field->Most)};
   const auto Given = Value.get<double>();
   if (Given != 0 && static_cast<float>(Given) == 0)
     return Error{Where, fmt::format("key {} is {:g}, which is 0 in single "
@@ -214,7 +236,7 @@ Expected<TrainSettings> readPreset(const std::string &Name) {
   if (!Read)
     return Read.error();
   if (!Read->is_object())
-    return Error{Name, "no JSON object, expected settings by name"};
+    return Error{Name, "not a JSON object, expected hyperparameters by name"};
   TrainSettings T;
   if (const auto Base = Read->find("preset"); Base != Read->end()) {
     auto From = namedPreset(Name, Base->is_string() ? Base->get<std::string>()

@@ -85,18 +85,19 @@ TEST(Settings, APresetsFileChangesAPreset) {
   EXPECT_EQ(Read(R"({"density": "mcmc"})")->Method, DensityMethod::Mcmc);
   for (const auto &[Text, Message] :
        {std::pair(R"({"noise_rat": 7})",
-                  "key noise_rat is no setting; did you mean noise_rate?"),
-        {R"({"dssim": 2})", "key dssim is wrong, expected a number, 0 to 1"},
+                  "key noise_rat is unknown, expected a hyperparameter; did "
+                  "you mean noise_rate?"),
+        {R"({"dssim": 2})", "key dssim is invalid, expected a number, 0 to 1"},
         {R"({"colour_rate": 1e-46})",
          "key colour_rate is 1e-46, which is 0 in single precision, expected 0 "
          "or more than 1.4e-45"},
         {R"({"sh_interval": 1.5})", "expected a whole number, 1 to"},
-        {R"({"beta1": "x"})", "key beta1 is wrong"},
+        {R"({"beta1": "x"})", "key beta1 is invalid"},
         {R"({"absgrad": 3})", "expected true or false"},
         {R"({"density": 3})", "expected classic or mcmc"},
         {R"({"preset": "inra"})", "no preset inra, expected inria, gsplat, "
                                   "mcmc or a file .json; did you mean inria?"},
-        {"[]", "expected settings by name"}}) {
+        {"[]", "expected hyperparameters by name"}}) {
     const auto Bad = Read(Text);
     ASSERT_FALSE(Bad) << Text;
     EXPECT_NE(Bad.error().What.find(Message), std::string::npos)

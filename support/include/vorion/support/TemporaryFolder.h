@@ -52,8 +52,8 @@ public:
 
 private:
   static Error cannotMake(const std::string &Why) {
-    return {"", "cannot make a temporary folder: " + Why +
-                    ", expected TMPDIR to allow one"};
+    return {"", "cannot create a temporary folder: " + Why +
+                    ", expected TMPDIR to name a writable folder"};
   }
   explicit TemporaryFolder(std::string PathIn)
       : Path(std::move(PathIn)), AtEnd(Path) {}
