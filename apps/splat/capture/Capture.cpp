@@ -47,7 +47,7 @@ void holdOut(Capture &C, unsigned Every) {
 Expected<Success> checkMasks(const std::string &Path, const Capture &C,
                              const CaptureOptions &Options) {
   if (Options.Masks == MaskSource::Files && C.masked() == 0)
-    return Error{Path, "no masks, expected masks/NAME.png for the picture "
+    return Error{Path, "no masks, expected masks/NAME.png for each picture "
                        "NAME, or mask_path in the frames"};
   return Success{};
 }
