@@ -178,7 +178,7 @@ struct {
                     {&lenses::OpenCv,
                      {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
                       -0.01, 0.03, 0, 0.01}},
-                    {&lenses::Division, {-0.3}},
+                    {&lenses::Division, {-0.2}},
                     {&lenses::Fisheye, {0.1, -0.02, 0.01, 0.002}},
                     {&lenses::Orthographic, {}},
                     {&lenses::Equirectangular, {}}};
