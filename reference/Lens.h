@@ -10,8 +10,8 @@
 
 namespace vorion::reference {
 
-/// Gives \p C the model with its coefficients and computes its limits. Size, focal lengths and principal point must be
-/// there.
+/// Gives \p C the model with its coefficients and computes its limits. Size,
+/// focal lengths and principal point must be there.
 template <typename Real>
 void setLens(Camera<Real> &C, const LensModel &Model,
              const LensCoefficients &K);

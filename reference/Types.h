@@ -67,8 +67,8 @@ struct Lens {
   /// Up to where the model is one to one: a radius before distortion, or an
   /// angle from the axis. What lies beyond is not drawn.
   double Limit = 0;
-  /// Of a model that holds slopes: least and largest x/z and y/z in the picture, without
-  /// the tangential part.
+  /// Of a model that holds slopes: least and largest x/z and y/z in the
+  /// picture, without the tangential part.
   glm::dvec2 SlopesX{0}, SlopesY{0};
 
   /// A pinhole, whose slopes jacobian() (Projection.h) holds.

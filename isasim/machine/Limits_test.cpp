@@ -66,7 +66,7 @@ TEST(Limits, JoinsWithoutABranch) {
   C.MaxInstructions = 100000;
   const Ended Counted = runOf(C, Words);
   EXPECT_EQ(Counted.Result.End, Outcome::LimitReached);
-  EXPECT_NE(Counted.Result.Report.find(" instructions, the limit"),
+  EXPECT_NE(Counted.Result.Report.find(" instructions, the maximum"),
             std::string::npos)
       << Counted.Result.Report;
   C.MaxInstructions = 0;

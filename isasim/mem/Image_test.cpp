@@ -293,7 +293,7 @@ TEST(Image, ManyKernelsOfOneTableAreRefused) {
   O.Segments.push_back({Table, PF_R, Words, 0});
   O.Symbols.push_back({"__start_vorion_kernels", Table});
   O.Symbols.push_back({"__stop_vorion_kernels", ArgTable});
-  EXPECT_NE(wrongIn(O).find("arguments of kernels so far in a file of"),
+  EXPECT_NE(wrongIn(O).find(" kernel arguments in a file of "),
             std::string::npos)
       << wrongIn(O);
 }

@@ -193,7 +193,7 @@ TEST(Region, DamageIsTold) {
     Bad.assign(Good.begin(), Good.begin() + static_cast<ptrdiff_t>(At));
     const auto Cut = parseRegion(Bad, "r");
     ASSERT_FALSE(Cut) << At;
-    EXPECT_NE(Cut.error().What.find("cut off"), std::string::npos);
+    EXPECT_NE(Cut.error().What.find("truncated"), std::string::npos);
     EXPECT_EQ(Cut.error().Code, ExitCode::InputFile);
   }
 }
@@ -261,7 +261,8 @@ TEST(Region, OtherResultsAreTold) {
   ASSERT_TRUE(M);
   const auto Last = runRegion(*R, **M, **Watch, true, "r", quiet);
   ASSERT_FALSE(Last);
-  EXPECT_NE(Last.error().What.find("launch 2, second: it left other memory"),
+  EXPECT_NE(Last.error().What.find(
+                "launch 2, second: the replay left different memory"),
             std::string::npos)
       << Last.error().What;
 }

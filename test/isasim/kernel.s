@@ -45,7 +45,7 @@
 # RUN: cmp %t.out %t.out8
 # RUN: sh -c 'vorion-sim %t.8.elf --global 100 --arg buf:400 --arg out:400@%t.never --arg i32:1 --arg local:9 2> %t.err; echo "exit $?" >> %t.err'
 # RUN: FileCheck %s --check-prefix=LANES < %t.err
-# LANES: vorion-sim: error: {{.*}}.8.elf: kernel 'scale' was compiled for warps of 8 lanes, expected 16 as the machine has
+# LANES: vorion-sim: error: {{.*}}.8.elf: kernel 'scale' was compiled for warps of 8 lanes, expected 16 as in the machine
 # LANES-NEXT: exit 3
 
 # A kernel that traps leaves no output file.

@@ -40,8 +40,8 @@ TEST(Doctor, AVariableThatIsReadIsANote) {
       examineVariables(std::vector<std::string>{"VORION_CONFIG=scaled"});
   ASSERT_EQ(Found.size(), 1U);
   EXPECT_EQ(Found[0].State, DiagnosisState::Note);
-  EXPECT_EQ(Found[0].Text, "VORION_CONFIG=scaled chooses the machine, by its "
-                           "name or by a JSON file");
+  EXPECT_EQ(Found[0].Text, "VORION_CONFIG=scaled selects the machine, by "
+                           "name or JSON file");
 }
 
 TEST(Doctor, AVariableThatNobodyReadsIsAFault) {

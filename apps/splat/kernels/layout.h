@@ -37,8 +37,8 @@ typedef struct {
 /// What a camera that is no pinhole has beside that; it lies behind the view.
 typedef struct {
   float k[13]; ///< in the order of the model's record (lens/)
-  /// What is not below it is not seen: a distortion's r^2, a fisheye's angle; or
-  /// the least cosine of a latitude at which the Jacobian is taken.
+  /// What is not below it is not seen: a distortion's r^2, a fisheye's angle;
+  /// or the least cosine of a latitude at which the Jacobian is taken.
   float limit;
   /// Of the unscented transform: the square of how far a point's place may be
   /// from the mean's, in units of the focal lengths.

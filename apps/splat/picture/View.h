@@ -34,7 +34,7 @@ std::vector<splat_crop> makeWindows(const Camera &C, unsigned Bits);
 /// The model by which one program draws all of \p Cameras, \p Path's: the one
 /// that they have, or a distortion for pinholes among such.
 Expected<const LensModel *> commonModel(const std::string &Path,
-                                const std::vector<Camera> &Cameras);
+                                        const std::vector<Camera> &Cameras);
 
 /// Whether one of \p Cameras moves while it exposes.
 bool isRolling(const std::vector<Camera> &Cameras);

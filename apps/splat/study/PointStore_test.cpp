@@ -64,7 +64,7 @@ TEST_F(PointStoreTest, WhatIsNoMeasurementIsNotUsed) {
       {"{}", "another point"},
       {"[]", "another point"},
       {"7", "another point"},
-      {std::string(200000, '['), "more than 256 deep"},
+      {std::string(200000, '['), "nested deeper than 256"},
       {std::string(100, '[') + std::string(100, ']'), "another point"},
       {Whole.substr(0, Whole.size() / 2), "not JSON"},
       {Cut("\"a\"", "\"b\""), "another point"},

@@ -42,7 +42,8 @@ TEST(UninitCheck, EveryDeclaredUseIsReported) {
                               .Rs1 = First ? Undefined : Address,
                               .Rs2 = First ? 0U : Undefined,
                               .Csr = CSR_FFLAGS}));
-      EXPECT_NE(Report.find(std::string(": ") + U.What + " from memory"),
+      EXPECT_NE(Report.find(std::string(": ") + U.What +
+                            " from uninitialized memory"),
                 std::string::npos)
           << InsnTable[N].Mnemonic << ": " << Report;
     }

@@ -164,8 +164,8 @@ TEST(TimingTable, WhatIsNoTableIsRefusedByItsKey) {
             "t.json: key command_ticks.RD is 0, expected 1 to 64");
   EXPECT_EQ(With([](Json &J) {
               J["constraints"].push_back(J["constraints"][0]);
-            }).substr(0, 24),
-            "t.json: key constraints[");
+            }).substr(0, 34),
+            "t.json: duplicate key constraints[");
   EXPECT_EQ(With([](Json &J) { J["constraints"][3]["scope"] = "bank"; }),
             "t.json: key constraints[3].scope is bank, expected rank: ACT and "
             "PREA do not both name a bank");

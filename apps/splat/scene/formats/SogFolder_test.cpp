@@ -192,7 +192,7 @@ TEST(SogFolder, AChunkNamedManyTimesIsReadOnce) {
        {{"children", Leaves}}}}.dump();
   const auto Read = Files.read();
   ASSERT_FALSE(Read);
-  EXPECT_NE(Read.error().What.find("twice, expected each file of a scene once"),
+  EXPECT_NE(Read.error().What.find("twice, expected one reference per file"),
             std::string::npos)
       << Read.error().What;
   EXPECT_LE(Files.Asked, 6U);

@@ -22,8 +22,8 @@ Polynomial product(std::span<const double> A, std::span<const double> B);
 /// last bit.
 std::vector<double> signChanges(const Polynomial &P, double End);
 
-/// Bisects [\p Low, \p High]: the place from which on \p Before is false, to the
-/// last bit. \p Before is true at Low and changes at most once; if it never
+/// Bisects [\p Low, \p High]: the place from which on \p Before is false, to
+/// the last bit. \p Before is true at Low and changes at most once; if it never
 /// does, the result is High.
 template <typename Predicate>
 double bisect(double Low, double High, const Predicate &Before) {

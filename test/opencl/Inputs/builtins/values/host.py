@@ -55,7 +55,8 @@ def commands(build, sanitizers):
         if match:
             call = (match[1] + match[3]).replace(FOR_DEVICE, f"{FOR_HOST} {sanitizers}")
             call = call.replace("-DPOCL_DEVICE_ADDRESS_BITS=32", "-DPOCL_DEVICE_ADDRESS_BITS=64")
-            found.append((match[2], re.sub(r" -fpass-plugin=\S+", "", call)))
+            # The plugin and the precompiled declarations are of the device.
+            found.append((match[2], re.sub(r" (-fpass-plugin=|-include-pch )\S+", "", call)))
     return found
 
 
