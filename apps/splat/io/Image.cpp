@@ -232,7 +232,7 @@ const std::vector<std::string_view> &pictureEndings() {
   return Endings;
 }
 
-constexpr std::string_view UnknownEnding = "unknown ending";
+constexpr std::string_view UnknownEnding = "unknown file extension";
 
 static std::string knownEndings() {
   return fmt::format("one of {}", fmt::join(pictureEndings(), ", "));
