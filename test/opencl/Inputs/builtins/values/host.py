@@ -11,7 +11,7 @@ import numpy as np
 from .device import FILL, Runner
 from .units import SHARED
 
-FOR_DEVICE = "-target riscv32-unknown-elf -march=rv32imaf -mabi=ilp32f -ffreestanding -emit-llvm"
+FOR_DEVICE = "-target riscv32-unknown-elf -march=rv32imaf -mabi=ilp32f -ffreestanding"
 FOR_HOST = "-target x86_64-linux-gnu -O1 -g1 -w"
 # What C leaves undefined, without what libdevice/opencl/FreezePoison.cpp defines; and that.
 SANITIZERS = "-fsanitize=undefined -fno-sanitize=shift,signed-integer-overflow,float-cast-overflow,builtin"
@@ -56,7 +56,7 @@ def commands(build, sanitizers):
             call = (match[1] + match[3]).replace(FOR_DEVICE, f"{FOR_HOST} {sanitizers}")
             call = call.replace("-DPOCL_DEVICE_ADDRESS_BITS=32", "-DPOCL_DEVICE_ADDRESS_BITS=64")
             # The plugin and the precompiled declarations are of the device.
-            found.append((match[2], re.sub(r" (-fpass-plugin=|-include-pch )\S+", "", call)))
+            found.append((match[2], re.sub(r" -emit-llvm| (-fpass-plugin=|-include-pch )\S+", "", call)))
     return found
 
 
