@@ -23,7 +23,7 @@ Dual<double> distortedRadius(const LensModel &M, const LensCoefficients &K,
 
 std::span<const LensModel *const> lenses::all() {
   static constexpr std::array List{
-#define VORION_LENS(Name) &Name,
+#define VORION_LENS(Name) &(Name),
 #include "reference/lens/Lenses.def"
   };
   return List;

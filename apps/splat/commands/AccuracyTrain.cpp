@@ -103,7 +103,7 @@ Expected<Success> measureTraining(TrainSweepPlan P, const StudyOptions &O) {
     return From.error();
   P.From = std::move(*From);
   PointStore Kept = storeOf(P, logStudy);
-  const std::vector<StudyPoint> All = studyPoints(P, trainPoints(P), logStudy);
+  std::vector<StudyPoint> All = studyPoints(P, trainPoints(P), logStudy);
   StudySteps Steps;
   Steps.Round = [&All] { return All; };
   Steps.Named = [&All](const std::vector<std::string> &Names) {
