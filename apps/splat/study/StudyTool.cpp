@@ -169,6 +169,7 @@ Expected<ProcessEnd> CommandRun::run() const {
   Files["out"] = Work + "/out";
   Files["kept"] = Kept;
   std::vector<std::string> Words;
+  Words.reserve(C.Words.size());
   for (const std::string &Word : C.Words)
     Words.push_back(filledIn(Word, Files));
   Words.front() = programFile(Words.front());
