@@ -1,4 +1,4 @@
-//===- Resources.cpp - what a function takes of the machine ---------------===//
+//===- Resources.cpp - the resources of a function ------------------------===//
 
 #include "Resources.h"
 #include "RISCVSubtarget.h"
@@ -23,10 +23,11 @@ using namespace llvm;
 
 namespace {
 
-/// Empty if nobody wants to know.
-cl::opt<std::string> FileName(
-    StringRef(vorion::ResourcesOption), cl::Hidden, cl::value_desc("file"),
-    cl::desc("Append what each function takes of the machine, as JSON"));
+/// Empty if no report is requested.
+cl::opt<std::string>
+    FileName(StringRef(vorion::ResourcesOption), cl::Hidden,
+             cl::value_desc("file"),
+             cl::desc("Append the resources of each function, as JSON"));
 
 /// Kind of the metadata of a function that has its divergent branches: strings
 /// of JSON.

@@ -1,4 +1,4 @@
-//===- Resources.h - what a function takes of the machine -------*- C++ -*-===//
+//===- Resources.h - the resources of a function ----------------*- C++ -*-===//
 //
 // For `vorion-clang --resources`: an object of JSON is appended to the file of
 // the option -vorion-resources for each function that is emitted, one a line.

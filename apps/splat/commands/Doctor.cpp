@@ -73,8 +73,8 @@ std::string textReport(const Diagnoses &All) {
   std::string Text;
   for (const Diagnosis &F : All) {
     Text += fmt::format("{:<6} {:<13} {}\n", name(F.State), F.Subject, F.Text);
-    if (!F.Mend.empty())
-      Text += fmt::format("{:<6} {:<13} fix: {}\n", "", "", F.Mend);
+    if (!F.Fix.empty())
+      Text += fmt::format("{:<6} {:<13} fix: {}\n", "", "", F.Fix);
   }
   return Text;
 }
@@ -85,7 +85,7 @@ std::string jsonReport(const Diagnoses &All, bool Well) {
     List.push_back({{"state", name(F.State)},
                     {"subject", F.Subject},
                     {"text", F.Text},
-                    {"mend", F.Mend}});
+                    {"mend", F.Fix}});
   Json Report = reportHead("splat-doctor");
   Report.update({{"well", Well}, {"findings", std::move(List)}});
   return jsonText(Report, 2) + "\n";

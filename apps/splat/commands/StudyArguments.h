@@ -1,4 +1,4 @@
-/// What commands share that measure by many runs of this program.
+/// Options and helpers of the commands that run a study.
 #pragma once
 
 #include "commands/CameraArguments.h"
@@ -14,30 +14,30 @@
 
 namespace vorion::splat {
 
-/// Declares options that say how a study is done. \p What is what is measured:
-/// "point"; \p Default names the folder without --out.
+/// Declares the options of a study. \p What names the measured thing in the
+/// help, as in "point"; \p Default is the default of --out.
 void addStudyOptions(CLI::App &App, StudyOptions &S, const std::string &What,
                      const std::string &Default);
 
-/// The views to draw: all of the file, unless \p C names some. An Error of
-/// usage, at \p File, where two of them would be kept as one file.
+/// The views to draw: all views of the file, unless \p C names some. Two views
+/// that would be stored in the same file are a usage error at \p File.
 Expected<std::vector<Camera>>
 studyViews(CameraArguments C, const SceneArguments &S, const std::string &File);
 
-/// What every run is made from: programs, machine and scene.
+/// The provenance that all runs share: programs, machine and scene.
 Expected<Provenance> sceneProvenance(const SceneArguments &S,
                                      const DeviceOptions &Machine);
 
 /// The options of \p App from the one numbered \p First on.
 std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First);
 
-/// Writes what a study found: \p Report as the file \p Name of \p Folder, and
-/// \p Page as its page.
+/// Writes the results of a study into \p Folder: \p Report as the file \p Name,
+/// and \p Page as its page.
 Expected<Success> writeStudy(const std::string &Folder, const std::string &Name,
                              const nlohmann::ordered_json &Report,
                              const std::string &Page);
 
-/// A line about a run that is done, unless progress is hidden.
+/// Prints a progress line, unless progress is disabled.
 void logStudy(std::string_view Line);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// What the generated launches of kernels are made of (kernel_headers.py).
+/// The building blocks of the generated kernel launches (kernel_headers.py).
 #pragma once
 
 #include "device/OpenCl.h"
@@ -9,9 +9,9 @@
 
 namespace vorion::splat {
 
-/// One argument of a launch. It is made of a value of exactly the kernel's
-/// type, and there is none without a value: a wrong argument does not compile,
-/// nor does a missing one.
+/// One argument of a launch. It converts only from a value of exactly the
+/// kernel's type and has no default, so that neither a wrong nor a missing
+/// argument compiles.
 template <typename T> class Argument {
 public:
   // NOLINTNEXTLINE(google-explicit-constructor): a launch lists values.
@@ -23,8 +23,8 @@ private:
   T Value;
 };
 
-/// An argument of a kernel that has it only where its program makes a choice;
-/// OpenCL refuses a launch that gives it elsewhere, or lacks it there.
+/// An argument that a kernel has only under a build-time choice. OpenCL rejects
+/// a launch that sets it without the choice, or omits it with the choice.
 template <typename T> using ArgumentByChoice = std::optional<Argument<T>>;
 
 /// A structure of a kernel's arguments that names the kernel.

@@ -1,4 +1,4 @@
-/// What a kernel program is built from: a file of kernels/ and its choices.
+/// A kernel program: a file of kernels/ and its build-time choices.
 #pragma once
 
 #include "device/OpenCl.h"
@@ -19,7 +19,7 @@ struct ProgramSpec {
   std::string File;                 ///< of kernels/, by which kernels are run
   std::vector<std::string> Defines; ///< "NAME" or "NAME=value"
 
-  /// As messages and reports have it: the file's, without its ".cl".
+  /// The name in messages and reports: the file name without ".cl".
   std::string name() const { return File.substr(0, File.rfind('.')); }
 
   bool operator==(const ProgramSpec &) const = default;
@@ -30,7 +30,8 @@ class EffectSwitch {
 public:
   static EffectSwitch absent() { return EffectSwitch("0"); }
   static EffectSwitch compiled() { return EffectSwitch("1"); }
-  /// Compiled, and done where \p Bit of the kernels' variable `effects` is set.
+  /// Compiled, and executed if \p Bit of the kernels' variable `effects` is
+  /// set.
   static EffectSwitch flagged(uint32_t Bit);
 
   const std::string &text() const { return Text; }
@@ -40,14 +41,14 @@ private:
   std::string Text; ///< in OpenCL C
 };
 
-/// Collects a program's choices as macros; what is not set is not defined.
+/// Collects a program's choices as macros. An unset choice is not defined.
 class ChoiceDefines {
 public:
   void add(const char *Name, bool Value);
   void add(const char *Name, const std::optional<cl_uint> &Value);
   void add(const char *Name, const std::optional<cl_float> &Value);
   void add(const char *Name, const std::optional<EffectSwitch> &Value);
-  /// Of a choice without which the file does not compile.
+  /// Adds a choice without which the file does not compile.
   template <typename T>
   void require(const char *Name, const std::optional<T> &Value) {
     assert(Value && "a choice of this program is not made");

@@ -20,7 +20,7 @@ struct Diagnosis {
   DiagnosisState State = DiagnosisState::Well;
   std::string Subject; ///< "device"
   std::string Text;    ///< what is so: a sentence without its full stop
-  std::string Mend;    ///< what to do about it; of a fault never empty
+  std::string Fix;     ///< what to do about it; of a fault never empty
 };
 
 using Diagnoses = std::vector<Diagnosis>;

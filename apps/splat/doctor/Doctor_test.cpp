@@ -19,14 +19,14 @@ TEST(Doctor, AFullDiskIsAFault) {
   const Diagnosis Full = examineDisk("/work", 100 * MiB - 1);
   EXPECT_EQ(Full.State, DiagnosisState::Fault);
   EXPECT_EQ(Full.Text, "/work has 99 MiB free, expected 100 MiB");
-  EXPECT_FALSE(Full.Mend.empty());
+  EXPECT_FALSE(Full.Fix.empty());
 }
 
 TEST(Doctor, LittleMemoryIsAFault) {
   EXPECT_EQ(examineMemory(1024 * MiB).State, DiagnosisState::Well);
   const Diagnosis Little = examineMemory(1024 * MiB - 1);
   EXPECT_EQ(Little.State, DiagnosisState::Fault);
-  EXPECT_FALSE(Little.Mend.empty());
+  EXPECT_FALSE(Little.Fix.empty());
 }
 
 TEST(Doctor, VariablesOfOthersAreNotLookedAt) {
@@ -49,10 +49,9 @@ TEST(Doctor, AVariableThatNobodyReadsIsAFault) {
       std::vector<std::string>{"VORION_CONFG=scaled", "VORION_PANCAKES=2"});
   ASSERT_EQ(Found.size(), 2U);
   EXPECT_EQ(Found[0].State, DiagnosisState::Fault);
-  EXPECT_EQ(Found[0].Mend,
-            "unset VORION_CONFG, or did you mean VORION_CONFIG?");
+  EXPECT_EQ(Found[0].Fix, "unset VORION_CONFG, or did you mean VORION_CONFIG?");
   EXPECT_EQ(Found[1].State, DiagnosisState::Fault);
-  EXPECT_EQ(Found[1].Mend, "unset VORION_PANCAKES");
+  EXPECT_EQ(Found[1].Fix, "unset VORION_PANCAKES");
 }
 
 TEST(Doctor, OneRowAVariable) {

@@ -157,10 +157,10 @@ Diagnoses examineCache(const KernelCacheFolder &Cache) {
 
 Diagnosis examineSystemCache(const std::string &Folder) {
   Diagnosis Found{DiagnosisState::Well, "system cache", "", ""};
-  const auto Fault = [&Found](std::string Text, std::string Mend) {
+  const auto Fault = [&Found](std::string Text, std::string Fix) {
     Found.State = DiagnosisState::Fault;
     Found.Text = std::move(Text);
-    Found.Mend = std::move(Mend);
+    Found.Fix = std::move(Fix);
     return Found;
   };
   std::error_code Failed;

@@ -43,8 +43,8 @@ static std::string sourceEnvironment() {
 
 /// What mends that no device opens by \p Options, of which \p Problem is said:
 /// its first words name the variable, or the option that gave its text.
-static std::string mendOfOpening(std::string_view Problem,
-                                 const DeviceOptions &Options) {
+static std::string fixOfOpening(std::string_view Problem,
+                                const DeviceOptions &Options) {
   for (const KnownVariable &K : knownVariables()) {
     const std::string Option = Options.giver(K.Name);
     if (!Option.empty() && Problem.starts_with(Option + ": "))
@@ -240,8 +240,8 @@ Diagnoses examineDevice(const DeviceOptions &Options) {
     std::string Why = D.error().What;
     if (Why.ends_with(SeeDoctor))
       Why.resize(Why.size() - SeeDoctor.size() - 1);
-    std::string Mend = mendOfOpening(Why, Options);
-    return {{DiagnosisState::Fault, "device", std::move(Why), std::move(Mend)}};
+    std::string Fix = fixOfOpening(Why, Options);
+    return {{DiagnosisState::Fault, "device", std::move(Why), std::move(Fix)}};
   }
   if (!D->isVorion())
     return {{DiagnosisState::Fault, "device",

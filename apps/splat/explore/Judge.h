@@ -30,10 +30,11 @@ struct Figures {
   }
 };
 
-/// Places in \p All of those that no other one beats: none is as good in
-/// everything and better in something. The fastest first, by the first kind of
-/// work that there is. Of equal ones the first, unless \p KeepsEqual. All are
-/// of the same kinds of work.
+/// Indices in \p All of the Pareto-optimal machines: no other machine is at
+/// least as good in every figure and better in one. Sorted by descending rate
+/// of the first kind of work that the figures have. Only the first of equal
+/// machines is included, unless \p KeepsEqual. All figures must be of the same
+/// kinds of work.
 std::vector<std::size_t> paretoFront(std::span<const Figures> All,
                                      bool KeepsEqual = false);
 

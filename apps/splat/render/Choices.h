@@ -1,4 +1,4 @@
-/// The choices of kernel programs that the options of a picture decide.
+/// The build-time choices of kernel programs that follow from RenderOptions.
 #pragma once
 
 #include "picture/Options.h"
@@ -7,16 +7,16 @@
 
 namespace vorion::splat {
 
-/// The exponent below which no opacity up to 1 is visible, by a margin beyond
-/// any unit's error; of six digits, as reports show it.
+/// The exponent below which no opacity up to 1 is visible, with a margin larger
+/// than the error of any exponential unit. Rounded to six decimals, as in
+/// reports.
 inline float leastPower(const RenderOptions &O) {
   const double Power = std::log(O.AlphaCutoff / 255.0) - 0.06;
   return static_cast<float>(std::round(1e6 * Power) / 1e6);
 }
 
-/// Makes those choices of \p P, a structure `Program` of kernel_headers.py,
-/// that
-/// \p O decides: each that the program takes.
+/// Sets the choices of \p P that follow from \p O, as far as its program takes
+/// them. \p P is a structure `Program` of kernel_headers.py.
 template <typename Program> void choose(Program &P, const RenderOptions &O) {
   const bool Inria = O.Convention == Rules::Inria;
   if constexpr (requires { P.TILE_SIZE; }) {

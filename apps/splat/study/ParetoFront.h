@@ -1,4 +1,4 @@
-/// The Pareto front of points that are judged by several figures.
+/// The Pareto front of points with several objectives.
 #pragma once
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 
 namespace vorion::splat {
 
-/// The points of \p Order, numbers from the best to the worst, that are on the
-/// Pareto front: each that none of the front before it beats. \p Beats(A, B)
-/// says whether A, which is before B, keeps B off the front. The order is such
-/// that no point beats one before it.
+/// The indices in \p Order of the points on the Pareto front. \p Beats(A, B)
+/// returns whether A excludes B, which comes after it, from the front. \p Order
+/// is sorted such that no point is excluded by a later one, so each point is
+/// compared only with the front before it.
 template <typename Relation>
 std::vector<std::size_t> paretoFront(const std::vector<std::size_t> &Order,
                                      Relation Beats) {

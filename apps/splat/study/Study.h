@@ -1,5 +1,5 @@
-/// How a study goes: its points are measured, several at a time, and kept, and
-/// what they say is written. Commands say which points they are.
+/// The study engine: measures the points of a study in parallel, stores the
+/// measurements, and writes the results. Each command defines its points.
 #pragma once
 
 #include "study/PointStore.h"
@@ -12,59 +12,60 @@
 
 namespace vorion::splat {
 
-/// A point of a study: a measurement that is kept under its name.
+/// A point of a study: a measurement that is stored under its name.
 struct StudyPoint {
   std::string Name;
   Provenance From;
-  /// Makes what Measure reads, unless it is there, before any point is
-  /// measured. What it holds is freed then.
+  /// Creates the inputs of Measure that do not exist yet. It runs before any
+  /// point is measured, and is destroyed afterwards with what it captured.
   std::function<Expected<Success>()> Prepare = [] { return Success{}; };
   std::function<Expected<nlohmann::ordered_json>()> Measure;
-  /// A measurement in a line.
+  /// A one-line summary of a measurement.
   std::function<std::string(const nlohmann::ordered_json &)> Describe;
 };
 
-/// What a command line says about every study.
+/// The options that all studies have.
 struct StudyOptions {
-  std::string Folder; ///< of measurements and page
-  unsigned Jobs = 1;  ///< points that are measured at the same time
-  bool List = false;  ///< measure none, and print the names of those missing
-  std::vector<std::string> Only; ///< names, as List prints them
+  std::string Folder;            ///< of the measurements and the page
+  unsigned Jobs = 1;             ///< number of points measured in parallel
+  bool List = false;             ///< only print the names of the missing points
+  std::vector<std::string> Only; ///< names of points, as List prints them
 };
 
-/// Those of \p Of that \p Kept lacks.
+/// The points of \p Of that are not in \p Kept.
 std::vector<StudyPoint> missing(PointStore &Kept, std::vector<StudyPoint> Of);
 
-/// Measures all of \p Wanted, \p Jobs at a time, and keeps them; \p Log gets a
-/// line for each one that is done, with an estimate of the time left. Ends with
-/// the first that fails.
+/// Measures all points of \p Wanted, \p Jobs in parallel, and stores them in \p
+/// Kept. \p Log receives a line per finished point, with an estimate of the
+/// remaining time. Stops at the first failure.
 Expected<Success> measureAll(PointStore &Kept, std::vector<StudyPoint> Wanted,
                              unsigned Jobs,
                              const std::function<void(std::string_view)> &Log);
 
-/// The points of \p Known that \p Only names; an Error of usage, with what was
-/// \p Wanted, says which is no such \p What.
+/// The points of \p Known with the names \p Only. An unknown name is a usage
+/// error; its message calls a point \p What, and \p Wanted describes the valid
+/// names.
 Expected<std::vector<StudyPoint>>
 pointsNamed(const std::vector<StudyPoint> &Known,
             const std::vector<std::string> &Only, std::string_view What,
             std::string_view Wanted);
 
-/// What differs between studies.
+/// The callbacks of a study.
 struct StudySteps {
-  /// The points of the present round, measured or not. What is measured so far
-  /// may say which they are. A study is done when none is missing.
+  /// The points of the current round, measured or not. They may depend on
+  /// earlier measurements. A study is complete when no point is missing.
   std::function<Expected<std::vector<StudyPoint>>()> Round;
-  /// The points that these names are of.
+  /// The points with these names.
   std::function<Expected<std::vector<StudyPoint>>(
       const std::vector<std::string> &)>
       Named;
-  /// Writes the files that all points read.
+  /// Writes the input files that all points share.
   std::function<Expected<Success>()> Begin = [] { return Success{}; };
-  /// Writes and prints what the points say.
+  /// Writes and prints the results.
   std::function<Expected<Success>()> End;
 };
 
-/// Goes through a study as \p O says.
+/// Runs a study with the options \p O.
 Expected<Success> runStudy(const StudyOptions &O, PointStore &Kept,
                            const StudySteps &Steps,
                            const std::function<void(std::string_view)> &Log);

@@ -1,6 +1,6 @@
-// splat-study: measures the points that standard input describes in JSON, and
-// prints the names of the files that have them. Scripts that measure by many
-// runs call it (bench/study.py says what a point is); it is not installed.
+// splat-study: the study engine for scripts. It measures the points that
+// standard input describes in JSON, and prints the names of their files.
+// bench/study.py documents a point. Not installed.
 
 #include "device/Programs.h"
 #include "io/Hash.h"
@@ -35,15 +35,15 @@ void log(std::string_view Line) {
   printNote(fmt::format("splat-study: {}\n", escaped(Line)));
 }
 
-/// A program and what it reads and writes.
+/// A program with its inputs and outputs.
 struct Command {
   std::string Name;
   std::vector<std::string> Words;
-  Texts Inputs;    ///< files and folders by what they are
-  Texts Variables; ///< of the environment
-  std::vector<std::string> Keep;
-  bool AnyBuild = false;     ///< a measurement of other programs serves
-  bool MayBeRefused = false; ///< a usage error is a measurement
+  Texts Inputs;                  ///< files and folders, by placeholder
+  Texts Variables;               ///< environment variables
+  std::vector<std::string> Keep; ///< suffixes of the output files to store
+  bool AnyBuild = false;         ///< reuse measurements of other builds
+  bool MayBeRefused = false;     ///< a usage error counts as a measurement
 };
 
 Command commandOf(const Json &J) {
@@ -65,13 +65,13 @@ std::string programFile(const std::string &Name) {
   return fs::read_symlink("/proc/self/exe").replace_filename(Name);
 }
 
-/// Of a file, or of all files of a folder.
+/// The hash of a file, or of all files of a folder.
 Expected<std::string> hashPath(const std::string &Path) {
   std::error_code Ignored;
   return fs::is_directory(Path, Ignored) ? hashScene(Path) : hashFile(Path);
 }
 
-/// What points are made from. A file that several read is hashed once.
+/// Computes the provenance of points. Each input file is hashed once.
 class Provenances {
 public:
   Expected<Provenance> of(const Command &C);
@@ -125,16 +125,16 @@ Expected<Provenance> Provenances::of(const Command &C) {
   return From;
 }
 
-/// Runs a command in a folder of its own, and keeps what it leaves.
+/// Runs a command in its own folder, and stores its outputs.
 class CommandRun {
 public:
   CommandRun(const std::string &Folder, const Command &C)
       : C(C), Kept(fmt::format("{}/points/{}", Folder, asFileName(C.Name))),
         Work(fmt::format("{}/work/{}", Folder, asFileName(C.Name))) {}
 
-  /// Whether the files that \p Measured names are as the run left them.
+  /// Whether the stored files match the hashes in \p Measured.
   bool hasFiles(const Json &Measured) const;
-  /// Removes them, and the measurement, which is of something else.
+  /// Removes a stale measurement with its files.
   void forget() const;
   Expected<Json> measure() const;
 
@@ -159,7 +159,7 @@ bool CommandRun::hasFiles(const Json &Measured) const {
 void CommandRun::forget() const {
   std::error_code Ignored;
   if (!fs::remove(Kept + ".json", Ignored))
-    return; // of a run that was broken off, which may go on
+    return; // the files are of an interrupted run, which may be resumed
   for (const std::string &Ending : C.Keep)
     fs::remove_all(Kept + Ending, Ignored);
 }
@@ -179,8 +179,8 @@ Expected<ProcessEnd> CommandRun::run() const {
   return runProgram(Words, Variables, Work + "/said", Work + "/log");
 }
 
-/// The hash of what the run wrote, its report, and the hashes of the files that
-/// are kept, which are moved to their places.
+/// The hash of the outputs, the report, and the hashes of the files to store,
+/// which are moved into the store.
 Expected<Json> CommandRun::outcome() const {
   std::vector<std::string> Written;
   for (const auto &Entry : fs::directory_iterator(Work))
@@ -284,7 +284,7 @@ Expected<Json> readRequest() {
   return J;
 }
 
-/// The files of the points of \p Request, null for those that are missing.
+/// The files of the points in \p Request; null for missing points.
 Expected<Json> study(const Json &Request) {
   const std::string Folder = Request["folder"];
   const bool Measures = Request["measure"];
@@ -299,7 +299,7 @@ Expected<Json> study(const Json &Request) {
   Provenances All;
   for (const Command &C : Commands) {
     auto From = All.of(C);
-    if (!From && !Measures) { // an input is a measurement that is missing, too
+    if (!From && !Measures) { // an input is itself a missing measurement
       Files.push_back(nullptr);
       continue;
     }
