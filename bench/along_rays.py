@@ -45,7 +45,7 @@ def sphere(view):
     return {**view, "camera_model": "EQUIRECTANGULAR"}
 
 
-LENSES = {plain: "", longer: ", eight times as long a focal length", distorted: ", OpenCV's distortion",
+LENSES = {plain: "", longer: ", eight times the focal length", distorted: ", OpenCV's distortion",
           wide: ", wide fisheye", sphere: ", sphere"}
 
 VIEWS = [("guitar", "front", plain), ("truck", "overview", plain), ("truck", "path", plain),
@@ -117,7 +117,7 @@ class Judge:
         return self.known[scene, view, lens]
 
     def rolling(self, scene, view, lens, shutter):
-        """PSNR by the Jacobian and by points, then beside the judge in the order of the pose."""
+        """PSNR by the Jacobian and by points, then compared with rays in the order of the pose."""
         record = {**self.record(scene, view, lens), **shutter}
         found = []
         for order in ("depth", "pose"):
@@ -140,10 +140,10 @@ def main():
             if args.only in name:
                 jacobian, everywhere, points, share = judge.still(scene, view, lens)
                 print(f"| {name} | {jacobian:.1f} | {everywhere:.1f} | {points:.1f} | {share:.1f} % |", flush=True)
-        print("\n| view | Jacobian | unscented | by the pose's order: Jacobian | unscented | without a shutter: Jacobian | "
+        print("\n| view | Jacobian | unscented | order of the pose: Jacobian | unscented | without a shutter: Jacobian | "
               "unscented |\n|---|--:|--:|--:|--:|--:|--:|")
         for scene, view, lens, shutter in SHUTTERS:
-            name = f"{scene}, {view}{LENSES[lens]}" + (", turning by 0.25 radians" if shutter is TURNING else "")
+            name = f"{scene}, {view}{LENSES[lens]}" + (", rotating by 0.25 radians" if shutter is TURNING else "")
             if args.only in name:
                 found = judge.rolling(scene, view, lens, shutter)
                 jacobian, _, points, _ = judge.still(scene, view, lens)
