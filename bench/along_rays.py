@@ -133,7 +133,7 @@ def main():
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         judge = Judge(args.scenes, folder)
-        print("| view | Jacobian | points everywhere | `--projection unscented` | Gaussians by the Jacobian |\n"
+        print("| view | Jacobian | points everywhere | `--projection unscented` | Gaussians that use the Jacobian |\n"
               "|---|--:|--:|--:|--:|")
         for scene, view, lens in VIEWS:
             name = f"{scene}, {view}{LENSES[lens]}"
