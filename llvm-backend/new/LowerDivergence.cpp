@@ -118,8 +118,9 @@ bool checkCode(Function &F, FunctionAnalysisManager &Analyses) {
     auto *Call = dyn_cast<CallBase>(&I);
     if (!Call)
       continue;
-    if (Call->isIndirectCall() && Uniform.isDivergent(Call->getCalledOperand()))
-      fail(I, "a call through a pointer in which lanes may differ; use "
+    if (Call->isMustTailCall() && Call->isIndirectCall() &&
+        Uniform.isDivergent(Call->getCalledOperand()))
+      fail(I, "a tail call through a pointer in which lanes may differ; use "
               "vx_uniform if they cannot");
     if (!checkIntrinsicCall(*Call)) {
       // Selection would stop at it before the next error is found.
@@ -258,6 +259,9 @@ bool vorion::lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
     run(PromotePass());
   if (!checkCode(F, Analyses))
     return false;
+  if (vorion::callPointersInTurn(F,
+                                 Analyses.getResult<UniformityInfoAnalysis>(F)))
+    changed();
   run(FixIrreduciblePass());
   vorion::unifyExits(F, Analyses.getResult<LoopAnalysis>(F), /*Known=*/true,
                      [](IRBuilder<> &Builder) { return Builder.getTrue(); });

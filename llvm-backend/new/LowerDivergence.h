@@ -60,6 +60,10 @@ bool mergeLoopExits(Function &F, FunctionAnalysisManager &Analyses);
 bool lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
                      const RISCVSubtarget &Subtarget, bool Optimize);
 
+/// Calls the functions one after the other where lanes may differ in what a
+/// pointer calls. True if there was such a call; \p Uniform is then stale.
+bool callPointersInTurn(Function &F, UniformityInfo &Uniform);
+
 /// Replaces divergent branches around a few instructions that all lanes may
 /// execute by selects. True if there were any; \p Analyses are then stale.
 bool selectShortSides(Function &F, FunctionAnalysisManager &Analyses,

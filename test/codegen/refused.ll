@@ -2,9 +2,9 @@
 ; REQUIRES: vorion-llc
 ; RUN: not vorion-llc -mtriple=riscv32 -mcpu=vorion < %s -o /dev/null 2>&1 | FileCheck %s
 
-; CHECK: error: {{.*}}in function pointer {{.*}}: a call through a pointer in which lanes may differ; use vx_uniform if they cannot
+; CHECK: error: {{.*}}in function pointer {{.*}}: a tail call through a pointer in which lanes may differ; use vx_uniform if they cannot
 define void @pointer(ptr %f) {
-  call void %f()
+  musttail call void %f(ptr %f)
   ret void
 }
 
