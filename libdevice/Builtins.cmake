@@ -1,6 +1,6 @@
 # The functions that the compiler calls for what rv32imf has no instruction
-# for, from compiler-rt's sources: 64-bit integers, conversions with them, half, and double in software
-# (printf of C programs, kernels that ask for it).
+# for, from compiler-rt's sources: 64-bit integers, conversions with them, half, double in software
+# (printf of C programs, kernels that ask for it), and long double, which has 128 bits.
 set(VORION_BUILTINS_FOLDER "${VORION_SOURCES}/llvm/compiler-rt/lib/builtins")
 set(VORION_BUILTINS
   # 64-bit integers
@@ -11,5 +11,8 @@ set(VORION_BUILTINS
   # double
   adddf3 subdf3 muldf3 divdf3 negdf2 comparedf2 extendsfdf2 truncdfsf2 truncdfhf2 fixdfsi fixdfdi fixunsdfsi
   fixunsdfdi floatsidf floatunsidf floatdidf floatundidf powidf2 fp_mode
+  # long double
+  addtf3 subtf3 multf3 divtf3 comparetf2 extendhftf2 extendsftf2 extenddftf2 trunctfhf2 trunctfsf2 trunctfdf2
+  fixtfsi fixtfdi fixunstfsi fixunstfdi floatsitf floatunsitf floatditf floatunditf powitf2
   # _Complex
-  mulsc3 divsc3 muldc3 divdc3)
+  mulsc3 divsc3 muldc3 divdc3 multc3 divtc3)
