@@ -190,7 +190,7 @@ bool Program::findSections() {
         return false;
       if (ELF32_ST_TYPE(Symbol.st_info) == STT_FUNC &&
           textAt(uint64_t{Sections[S.sh_link].sh_offset} + Symbol.st_name) ==
-              "main")
+              "vorion_main")
         Main = Symbol.st_value;
     }
   }

@@ -30,9 +30,10 @@ constexpr uint32_t MainAddress = 0x80000000, TableAddress = 0x80001000;
 std::vector<std::byte> program(const std::vector<Function> &Functions,
                                const std::vector<uint32_t> &Kernels) {
   // Each part a section; names at these places of the first.
-  constexpr char Names[] = "\0vorion_stacks\0vorion_kernels\0main\0k\0\0\0";
+  constexpr char Names[] =
+      "\0vorion_stacks\0vorion_kernels\0vorion_main\0k\0\0\0\0";
   constexpr uint32_t StacksName = 1, KernelsName = 15, MainName = 30,
-                     KernelName = 35;
+                     KernelName = 42;
   std::vector<uint32_t> Parts[4];
   Parts[0].resize(sizeof(Names) / 4);
   std::memcpy(Parts[0].data(), Names, Parts[0].size() * 4);

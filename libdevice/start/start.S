@@ -94,7 +94,7 @@ _start:
     csrr    s1, mscratch
     bnez    s1, groups
 
-    call    main
+    call    vorion_main         # main, or what runs it (vorion.ld)
     sw      a0, VX_IO_EXIT(zero)
     vx_tmc  zero
 
