@@ -86,7 +86,7 @@ function(vorion_install_package)
   # What `cmake --install` needs, without tests and fuzzers.
   add_custom_target(vorion_installed DEPENDS ${Targets})
   # What scripts/demo.sh and the first steps of README.md use of that.
-  set(Demo splat splat-hard-cases vorion-clang vorion-link vorion_libdevice vorion_pocl)
+  set(Demo splat splat-hard-cases vorion-compiler vorion_libdevice vorion_pocl)
   add_custom_target(vorion_demo)
   foreach(Target IN LISTS Demo)
     if(Target IN_LIST Targets)

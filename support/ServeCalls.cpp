@@ -6,11 +6,10 @@
 #include <cstdio>
 #include <fcntl.h>
 #include <poll.h>
-#include <string>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
-#include <vector>
 
 namespace vorion {
 namespace {
@@ -18,32 +17,10 @@ namespace {
 constexpr int IdleMilliseconds = 10'000;
 /// Of memory that the process ever had, KiB.
 constexpr long MostMemory = 512L << 10;
+/// Where the process that serves has its socket.
+constexpr int Socket = STDERR_FILENO + 1;
 
-/// Where what is printed goes meanwhile.
-class Printed {
-public:
-  Printed() : File(::memfd_create("printed", MFD_CLOEXEC)) {
-    for (const int Stream : {STDOUT_FILENO, STDERR_FILENO})
-      ::dup2(File, Stream);
-  }
-  bool good() const { return File >= 0; }
-  /// What was printed since the last time.
-  std::string take() {
-    std::string Text;
-    std::array<char, 4096> Part;
-    ::lseek(File, 0, SEEK_SET);
-    for (ssize_t Got; (Got = ::read(File, Part.data(), Part.size())) > 0;)
-      Text.append(Part.data(), static_cast<std::size_t>(Got));
-    static_cast<void>(::ftruncate(File, 0));
-    ::lseek(File, 0, SEEK_SET);
-    return Text;
-  }
-
-private:
-  int File;
-};
-
-bool isCalled(int Socket) {
+bool isCalled() {
   pollfd Wanted{Socket, POLLIN, 0};
   return ::poll(&Wanted, 1, IdleMilliseconds) > 0;
 }
@@ -54,39 +31,72 @@ bool hasMuchMemory() {
   return Used.ru_maxrss > MostMemory;
 }
 
-} // namespace
+/// What is printed goes to a file in memory, which both processes have.
+bool redirectOutput() {
+  const int Printed = ::memfd_create("printed", 0);
+  return Printed >= 0 && ::dup2(Printed, STDERR_FILENO) >= 0 &&
+         ::close(Printed) == 0;
+}
 
-int serveCalls(char *Name, const std::function<int(std::span<char *>)> &Call) {
-  const pid_t Child = ::fork();
-  if (Child != 0)
-    return Child < 0 ? 1 : 0;
-  // Away from the terminal's signals, and from what the client has open.
-  ::setsid();
-  constexpr int Socket = STDERR_FILENO + 1;
+int serve(const std::function<Response(std::string_view)> &Answer) {
   if (::dup3(STDIN_FILENO, Socket, O_CLOEXEC) < 0)
     return 1;
   ::close_range(Socket + 1, ~0U, 0);
-  ::close(STDIN_FILENO);
-  if (::open("/dev/null", O_RDONLY) != STDIN_FILENO)
-    return 1;
-  Printed Output;
-  if (!Output.good())
-    return 1;
-  while (isCalled(Socket)) {
-    const auto Text = receiveText(Socket);
-    if (!Text)
+  for (const int Stream : {STDIN_FILENO, STDOUT_FILENO}) {
+    ::close(Stream);
+    if (::open("/dev/null", O_RDWR) != Stream)
+      return 1;
+  }
+  while (isCalled()) {
+    const auto Request = receiveText(Socket);
+    if (!Request)
       break;
-    std::vector<std::string> Arguments = argumentsOf(*Text);
-    std::vector<char *> All{Name};
-    for (std::string &Argument : Arguments)
-      All.push_back(Argument.data());
-    const int Code = Call(All);
+    const Response Given = Answer(*Request);
     std::fflush(nullptr);
-    if (!sendText(Socket, std::to_string(Code) + " " + Output.take()) ||
-        Code != 0 || hasMuchMemory())
+    if (!sendText(Socket, Given.Text) || !Given.MayStay || hasMuchMemory())
       break;
   }
   return 0;
+}
+
+/// Waits for the process that serves, with nothing open but how it ends.
+int watch(pid_t Server) {
+  ::close(STDIN_FILENO);
+  ::close_range(STDERR_FILENO + 1, ~0U, 0);
+  ServerEnd End;
+  while (::waitpid(Server, &End.WaitStatus, 0) < 0 && errno == EINTR) {
+  }
+  End.Printed = takePrinted();
+  sendText(STDOUT_FILENO, textOf(End));
+  return 0;
+}
+
+} // namespace
+
+std::string takePrinted() {
+  std::string Text;
+  std::array<char, 4096> Part{};
+  ::lseek(STDERR_FILENO, 0, SEEK_SET);
+  for (ssize_t Got;
+       (Got = ::read(STDERR_FILENO, Part.data(), Part.size())) > 0;)
+    Text.append(Part.data(), static_cast<std::size_t>(Got));
+  static_cast<void>(::ftruncate(STDERR_FILENO, 0));
+  ::lseek(STDERR_FILENO, 0, SEEK_SET);
+  return Text;
+}
+
+int serveCalls(const std::function<Response(std::string_view)> &Answer) {
+  const pid_t Child = ::fork();
+  if (Child != 0)
+    return Child < 0 ? 1 : 0;
+  // Away from the terminal's signals.
+  ::setsid();
+  if (!redirectOutput())
+    return 1;
+  const pid_t Server = ::fork();
+  if (Server < 0)
+    return 1;
+  return Server == 0 ? serve(Answer) : watch(Server);
 }
 
 } // namespace vorion

@@ -2,10 +2,15 @@
 
 #include "vorion/support/ToolMessages.h"
 
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <gtest/gtest.h>
+#include <optional>
+#include <string>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 namespace vorion {
 namespace {
@@ -25,53 +30,101 @@ TEST(ToolMessages, TextsArriveWholeAndTheEndIsSeen) {
   ::close(Ends[1]);
 }
 
-TEST(ToolMessages, ArgumentsStayWhatTheyAre) {
-  for (const std::vector<std::string> &Arguments :
-       {std::vector<std::string>{}, {""}, {"-o", "a b", "", "c\nd"}})
-    EXPECT_EQ(argumentsOf(callText(Arguments)), Arguments);
+struct Sample {
+  std::string Name;
+  bool IsSet = false;
+  std::vector<std::string> Words;
+};
+template <typename Archive> void visit(Archive &A, Sample &Value) {
+  A.text(Value.Name);
+  A.number(Value.IsSet);
+  A.list(Value.Words);
 }
 
-/// The client's end of a server that prints its arguments and fails if the
-/// first one is "fail".
-int served() {
-  int Ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, Ends) != 0)
-    return -1;
+TEST(ToolMessages, FieldsStayWhatTheyAre) {
+  Sample Sent{std::string("a\0b", 3), true, {"", "c\nd"}}, Got;
+  const std::string Text = textOf(Sent);
+  EXPECT_TRUE(isReadInto(Got, Text));
+  EXPECT_EQ(Got.Name, Sent.Name);
+  EXPECT_EQ(Got.IsSet, Sent.IsSet);
+  EXPECT_EQ(Got.Words, Sent.Words);
+}
+
+TEST(ToolMessages, OtherTextsAreRefused) {
+  Sample Sent{"name", false, {"word"}}, Got;
+  const std::string Text = textOf(Sent);
+  EXPECT_FALSE(isReadInto(Got, Text + "x"));
+  for (size_t Size = 0; Size < Text.size(); ++Size)
+    EXPECT_FALSE(isReadInto(Got, std::string_view(Text).substr(0, Size)));
+  EXPECT_FALSE(isReadInto(Got, std::string(Text.size(), '\xFF')));
+}
+
+/// The client's ends of a server.
+struct Served {
+  int Calls = -1, End = -1;
+
+  std::optional<std::string> call(std::string_view Request) const {
+    return sendText(Calls, Request) ? receiveText(Calls) : std::nullopt;
+  }
+  ServerEnd end() const {
+    ServerEnd Ended;
+    const auto Text = receiveText(End);
+    EXPECT_TRUE(Text && isReadInto(Ended, *Text));
+    ::close(Calls);
+    ::close(End);
+    return Ended;
+  }
+};
+
+/// A server that answers with its request and what it printed.
+Served serve() {
+  int Calls[2], End[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, Calls) != 0 ||
+      ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, End) != 0)
+    return {};
   const pid_t Child = ::fork();
   if (Child == 0) {
-    ::dup2(Ends[1], STDIN_FILENO);
-    std::string Name = "tool";
-    ::_exit(serveCalls(Name.data(), [](std::span<char *> Call) {
-      for (const char *A : Call.subspan(1))
-        std::printf("(%s)", A);
-      std::fprintf(stderr, "!");
-      return std::string_view(Call[1]) == "fail" ? 3 : 0;
+    ::dup2(Calls[1], STDIN_FILENO);
+    ::dup2(End[1], STDOUT_FILENO);
+    ::_exit(serveCalls([](std::string_view Request) -> Response {
+      std::fprintf(stderr, "(%s)", std::string(Request).c_str());
+      if (Request == "exit")
+        ::_exit(3);
+      if (Request == "abort")
+        std::abort();
+      return {std::string(Request) + takePrinted(), Request != "last"};
     }));
   }
-  ::close(Ends[1]);
+  ::close(Calls[1]);
+  ::close(End[1]);
   int Status = -1;
   // It ends at once, and leaves the server to nobody.
   EXPECT_EQ(::waitpid(Child, &Status, 0), Child);
   EXPECT_EQ(Status, 0);
-  return Ends[0];
+  return {Calls[0], End[0]};
 }
 
-TEST(ServeCalls, OneAfterTheOtherUntilOneFails) {
-  const int Socket = served();
-  for (const char *Word : {"one", "two"}) {
-    EXPECT_TRUE(sendText(Socket, callText({Word, "x"})));
-    const auto Answer = receiveText(Socket);
-    ASSERT_TRUE(Answer.has_value());
-    EXPECT_EQ(Answer->substr(0, 2), "0 ");
-    EXPECT_NE(Answer->find(std::string("(") + Word + ")(x)"),
-              std::string::npos);
-    EXPECT_NE(Answer->find('!'), std::string::npos);
-    EXPECT_EQ(Answer->size(), 2 + 5 + 3 + 1U);
-  }
-  EXPECT_TRUE(sendText(Socket, callText({"fail"})));
-  EXPECT_EQ(receiveText(Socket).value_or("").substr(0, 2), "3 ");
-  EXPECT_FALSE(receiveText(Socket).has_value());
-  ::close(Socket);
+TEST(ServeCalls, OneAfterTheOtherUntilTheLast) {
+  const Served Server = serve();
+  for (const std::string Word : {"one", "two", "last"})
+    EXPECT_EQ(Server.call(Word), Word + "(" + Word + ")");
+  EXPECT_FALSE(Server.call("another").has_value());
+  EXPECT_EQ(Server.end().WaitStatus, 0);
+}
+
+TEST(ServeCalls, TheClientLearnsHowItEnded) {
+  Served Server = serve();
+  EXPECT_EQ(Server.call("one"), "one(one)");
+  EXPECT_FALSE(Server.call("exit").has_value());
+  ServerEnd End = Server.end();
+  EXPECT_TRUE(WIFEXITED(End.WaitStatus) && WEXITSTATUS(End.WaitStatus) == 3);
+  EXPECT_EQ(End.Printed, "(exit)");
+
+  Server = serve();
+  EXPECT_FALSE(Server.call("abort").has_value());
+  End = Server.end();
+  EXPECT_TRUE(WIFSIGNALED(End.WaitStatus) &&
+              WTERMSIG(End.WaitStatus) == SIGABRT);
 }
 
 } // namespace

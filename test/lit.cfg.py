@@ -38,7 +38,7 @@ config.substitutions += [
     ("%data", os.path.join(root, "..", "shared", "data")),
 ]
 
-programs = ["vorion-clang", "vorion-cl-link", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
+programs = ["vorion-clang", "vorion-compiler", "vorion-cl-link", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
             "isasim-decode-words", "isasim-raster-tiles",
             "splat", "splat-check-gradients", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "splat-reader-work", "sample-radixsort", "sample-vecadd"]
 features = {name: os.path.join(build, "bin", name) for name in programs}

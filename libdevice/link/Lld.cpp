@@ -1,18 +1,31 @@
 #include "Lld.h"
 
+#include "lld/Common/CommonLinkerContext.h"
 #include "lld/Common/Driver.h"
 #include "lld/Common/ErrorHandler.h"
 #include "llvm/Support/raw_ostream.h"
 
 LLD_HAS_DRIVER(elf)
 
-void vorion::link::runLld(const std::vector<std::string> &Arguments) {
+namespace vorion::link {
+
+static bool link(const std::vector<std::string> &Arguments, bool EndEarly) {
   std::vector<const char *> Argv;
   Argv.reserve(Arguments.size());
   for (const std::string &Argument : Arguments)
     Argv.push_back(Argument.c_str());
-  const bool Linked = lld::elf::link(Argv, llvm::outs(), llvm::errs(),
-                                     /*exitEarly=*/true,
-                                     /*disableOutput=*/false);
-  lld::exitLld(Linked ? 0 : 1);
+  return lld::elf::link(Argv, llvm::outs(), llvm::errs(), EndEarly,
+                        /*disableOutput=*/false);
 }
+
+void runLld(const std::vector<std::string> &Arguments) {
+  lld::exitLld(link(Arguments, /*EndEarly=*/true) ? 0 : 1);
+}
+
+bool callLld(const std::vector<std::string> &Arguments) {
+  const bool Linked = link(Arguments, /*EndEarly=*/false);
+  lld::CommonLinkerContext::destroy();
+  return Linked;
+}
+
+} // namespace vorion::link

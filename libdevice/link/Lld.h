@@ -11,4 +11,8 @@ namespace vorion::link {
 /// in messages. Ends the process with lld's exit code.
 [[noreturn]] void runLld(const std::vector<std::string> &Arguments);
 
+/// The same, but returns whether lld succeeded. The process ends all the same
+/// after a fatal error of lld.
+bool callLld(const std::vector<std::string> &Arguments);
+
 } // namespace vorion::link

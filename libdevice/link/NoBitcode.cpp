@@ -27,17 +27,3 @@ void BitcodeCompiler::add(BitcodeFile & /*File*/) {
 std::vector<InputFile *> BitcodeCompiler::compile() { return {}; }
 
 } // namespace lld::elf
-
-extern "C" {
-#define LLVM_TARGET(Name)                                                      \
-  void LLVMInitialize##Name##TargetInfo() {}                                   \
-  void LLVMInitialize##Name##Target() {}                                       \
-  void LLVMInitialize##Name##TargetMC() {}
-#include "llvm/Config/Targets.def"
-#define LLVM_ASM_PRINTER(Name)                                                 \
-  void LLVMInitialize##Name##AsmPrinter() {}
-#include "llvm/Config/AsmPrinters.def"
-#define LLVM_ASM_PARSER(Name)                                                  \
-  void LLVMInitialize##Name##AsmParser() {}
-#include "llvm/Config/AsmParsers.def"
-}

@@ -6,13 +6,11 @@
 
 #include "Lld.h"
 #include "ObjectCheck.h"
-#include "StackDepth.h"
+#include "Program.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/HelpText.h"
-#include "vorion/support/ServeCalls.h"
 #include "vorion/support/Tool.h"
-#include "vorion/support/ToolMessages.h"
 #include "vorion/support/Version.h"
 
 #include <algorithm>
@@ -27,7 +25,6 @@
 #include <optional>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <vorion_abi.h>
 
 using namespace vorion;
 namespace fs = std::filesystem;
@@ -35,8 +32,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view Tool = "vorion-link";
-/// What lld calls itself in its messages.
-constexpr const char *Linker = "ld.lld-19";
 
 constexpr std::string_view Usage =
     "usage: vorion-link [options] object... -o program.elf\n"
@@ -126,19 +121,6 @@ Expected<CommandLine> parse(int Argc, char **Argv) {
   return Line;
 }
 
-/// The folder with start.o, vorion.ld and libdevice.a: beside bin/, where this
-/// program lies.
-Expected<fs::path> deviceFolder() {
-  std::error_code Failed;
-  const fs::path Self = fs::read_symlink("/proc/self/exe", Failed);
-  const fs::path Folder = Self.parent_path().parent_path() / "lib" / "vorion";
-  for (const char *Name : {"start.o", "vorion.ld", "libdevice.a"})
-    if (!fs::exists(Folder / Name, Failed))
-      return Error{(Folder / Name).string(),
-                   "missing, expected beside the installed tools"};
-  return Folder;
-}
-
 /// lld in a copy of this process, which a signal may end.
 Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
   const pid_t Child = fork();
@@ -161,7 +143,7 @@ Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
   return Success{};
 }
 
-/// Completes the kernel table of \p Output, and warns of what no machine runs.
+/// Completes the kernel table of \p Output.
 Expected<Success> addStackNeeds(const std::string &Output) {
   std::error_code Failed;
   if (!fs::is_regular_file(Output, Failed))
@@ -169,15 +151,9 @@ Expected<Success> addStackNeeds(const std::string &Output) {
   Expected<std::vector<std::byte>> Program = readFile(Output);
   if (!Program)
     return Program.error();
-  const auto Needs = link::writeStackNeeds(*Program, Output);
-  if (!Needs)
-    return Needs.error();
-  for (const link::StackNeed &Need : *Needs)
-    if (Need.Bytes > VX_MAX_STACK_ROOM)
-      printDiagnostic(Tool, "warning", Output,
-                      fmt::format("{} needs a stack of {} bytes per work-item, "
-                                  "expected at most {}, the limit of a machine",
-                                  Need.Name, Need.Bytes, VX_MAX_STACK_ROOM));
+  if (const auto Completed = link::completeProgram(*Program, Output);
+      !Completed)
+    return Completed;
   std::fstream File(Output, std::ios::in | std::ios::out | std::ios::binary);
   File.write(reinterpret_cast<const char *>(Program->data()),
              static_cast<std::streamsize>(Program->size()));
@@ -196,21 +172,16 @@ Expected<Success> linkProgram(const CommandLine &Line) {
     if (!Good)
       return Good.error();
   }
-  std::vector<std::string> Arguments = {Linker};
-  std::vector<std::string> Libraries;
-  if (!Line.Relocatable) {
-    const auto Folder = deviceFolder();
-    if (!Folder)
-      return Folder.error();
-    Arguments.insert(Arguments.end(),
-                     {"-T", (*Folder / "vorion.ld").string(), "--gc-sections",
-                      "--fatal-warnings", "--no-dynamic-linker", "-static",
-                      (*Folder / "start.o").string()});
-    Libraries.push_back((*Folder / "libdevice.a").string());
+  std::vector<std::string> Arguments = {link::LinkerName};
+  if (Line.Relocatable) {
+    Arguments.insert(Arguments.end(), Line.Forwarded.begin(),
+                     Line.Forwarded.end());
+  } else {
+    auto Program = link::programArguments(Line.Forwarded);
+    if (!Program)
+      return Program.error();
+    Arguments = std::move(*Program);
   }
-  Arguments.insert(Arguments.end(), Line.Forwarded.begin(),
-                   Line.Forwarded.end());
-  Arguments.insert(Arguments.end(), Libraries.begin(), Libraries.end());
 
   // lld leaves its old output in place when it fails half way, and writes
   // through a file of its own, so the name is safe to give to it.
@@ -229,7 +200,7 @@ int run(int Argc, char **Argv) {
       printOut("{}\n", versionLine(Tool));
       std::fflush(stdout);
       // Build systems look for lld's name to know what options there are.
-      const auto Shown = runLinker({Linker, "--version"});
+      const auto Shown = runLinker({link::LinkerName, "--version"});
       return Shown ? 0 : reportError(Tool, Shown.error());
     }
   const auto Line = parse(Argc, Argv);
@@ -242,11 +213,5 @@ int run(int Argc, char **Argv) {
 } // namespace
 
 int main(int Argc, char **Argv) {
-  return runTool(Tool, [&] {
-    if (Argc != 2 || std::strcmp(Argv[1], ServeCalls) != 0)
-      return run(Argc, Argv);
-    return serveCalls(Argv[0], [](std::span<char *> Call) {
-      return run(static_cast<int>(Call.size()), Call.data());
-    });
-  });
+  return runTool(Tool, [&] { return run(Argc, Argv); });
 }

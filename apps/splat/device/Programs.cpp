@@ -30,10 +30,9 @@ Expected<std::string> hashPrograms(const std::string &Splat) {
   std::map<std::string, fs::path> Files{
       {"splat", Splat.empty() ? thisProgram() : fs::path(Splat)}};
   const fs::path Root = root();
-  for (const char *Name :
-       {"bin/vorion-clang", "bin/vorion-clang.cfg", "bin/vorion-link",
-        "lib/libvorion-runtime.so", "lib/vorion", "include/vorion", "pocl/lib",
-        "pocl/share/pocl"}) {
+  for (const char *Name : {"bin/vorion-compiler", "bin/vorion-clang.cfg",
+                           "lib/libvorion-runtime.so", "lib/vorion",
+                           "include/vorion", "pocl/lib", "pocl/share/pocl"}) {
     const fs::path Place = Root / Name;
     std::error_code Failed;
     if (fs::is_regular_file(Place, Failed))

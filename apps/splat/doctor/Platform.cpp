@@ -138,18 +138,16 @@ Diagnosis examineTools(const std::string &Root,
     const auto IsThere = [&](const char *Tool) {
       return access((Place / "bin" / Tool).c_str(), X_OK) == 0;
     };
-    if (IsThere("vorion-clang") && IsThere("vorion-link"))
+    if (IsThere("vorion-compiler"))
       return {DiagnosisState::Well, "compiler",
-              fmt::format("{} has vorion-clang and vorion-link",
-                          (Place / "bin").string()),
+              fmt::format("{} has vorion-compiler", (Place / "bin").string()),
               ""};
   }
   return {DiagnosisState::Fault, "compiler",
           Root.empty()
-              ? "no folder above the platform's library has bin/vorion-clang "
-                "and bin/vorion-link"
-              : fmt::format("VORION_ROOT is {}, which has no bin/vorion-clang "
-                            "or no bin/vorion-link",
+              ? "no folder above the platform's library has bin/vorion-compiler"
+              : fmt::format("VORION_ROOT is {}, which has no "
+                            "bin/vorion-compiler",
                             Root),
           sourceEnvironment()};
 }

@@ -15,11 +15,10 @@ namespace {
 
 constexpr const char *Wanted = ", expected OpenCL C that compiles";
 constexpr const char *WantedModule = ", expected a valid module";
-/// What the platform says of a kernel that it cannot make an image of, and of
-/// which tool cannot.
+/// What the platform says of a kernel that it cannot make an image of, and how
+/// its line ends before what the compiler printed.
 constexpr std::string_view KernelRefused = "vorion: error: ";
-constexpr std::string_view CompilerFailed = "vorion-clang failed";
-constexpr std::string_view LinkerFailed = "vorion-link failed";
+constexpr std::string_view PrintedFollows = ", expected a kernel that can\n";
 
 std::vector<std::string> linesOf(const std::string &Text) {
   std::vector<std::string> Lines;
@@ -85,11 +84,10 @@ Error compilerError(const std::string &Input, const std::string &Log,
 }
 
 std::string machineLog(const std::string &Output) {
-  const std::size_t Refused =
-      std::min(Output.find(CompilerFailed), Output.find(LinkerFailed));
-  const std::size_t Begin = Output.find('\n', Refused);
-  if (Refused == std::string::npos || Begin == std::string::npos)
+  const std::size_t Refused = Output.find(PrintedFollows);
+  if (Refused == std::string::npos)
     return {};
+  const std::size_t Begin = Output.find('\n', Refused);
   // The next kernel begins with a line of the platform.
   const std::size_t End = Output.find(KernelRefused, Begin);
   std::string Log = Output.substr(Begin + 1, End - Begin - 1);
@@ -126,14 +124,7 @@ Error kernelError(const std::string &Input, const std::string &Output) {
   if (const auto Reason = after(Output, KernelRefused)) {
     if (Reason->find(", expected ") != std::string::npos)
       return {Input, *Reason};
-    // "kernel NAME: FOLDER/vorion-clang failed"
-    const std::string Kernel = Reason->substr(0, Reason->find(": "));
-    std::string Said = *Reason;
-    if (Reason->find(CompilerFailed) != std::string::npos)
-      Said = Kernel + " cannot be compiled for the machine";
-    else if (Reason->find(LinkerFailed) != std::string::npos)
-      Said = Kernel + " cannot be linked";
-    return {Input, Said + ", expected a kernel that can"};
+    return {Input, *Reason + ", expected a kernel that can be compiled"};
   }
   return {Input, "no code was generated, expected at least one kernel"};
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The compiler's processes that stay, seen from the program that they serve: whose children they are, what happens if
+"""The compiler's processes, which stay, seen from the program that they serve: whose children they are, what happens if
 they are ended, and that they do not outlive the program. Prints a line for each.
 
 usage: tool_servers.py         the program, which runs itself once more as the one that compiles
@@ -60,7 +60,7 @@ def compiling():
 
     right = runs(1) and runs(2)
     first = set(servers())
-    print("two kernels:", right, "by servers:", len(first))
+    print("two kernels:", right, "by processes:", len(first))
     print("the same ones serve the next:", runs(3) and set(servers()) == first)
     try:
         os.waitpid(-1, os.WNOHANG)

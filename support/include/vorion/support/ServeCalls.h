@@ -2,17 +2,29 @@
 #pragma once
 
 #include <functional>
-#include <span>
+#include <string>
+#include <string_view>
 
 namespace vorion {
 
-/// Serves calls over standard input, a socket (ToolMessages.h), in a daemon
+/// What a server gives for a request.
+struct Response {
+  std::string Text;
+  /// Whether the process may serve another request.
+  bool MayStay = true;
+};
+
+/// What the process printed on standard error since the last call of this
+/// function: that is a file in memory while serveCalls() runs.
+std::string takePrinted();
+
+/// Serves requests over standard input, a socket (ToolMessages.h), in a daemon
 /// process: the original process exits at once, so that its parent need not
-/// wait. \p Call has the arguments of a main function, with \p Name first, and
-/// returns the exit code; the response is that number, a blank, and the printed
-/// text. The process exits when its client disconnects, after ten seconds
-/// without a call, after a failed call, and when its memory has grown much,
-/// because clang does not free memory. Returns the exit code.
-int serveCalls(char *Name, const std::function<int(std::span<char *>)> &Call);
+/// wait. The daemon exits when its client disconnects, after ten seconds
+/// without a request, after a response that says so, and when its memory has
+/// grown much, because clang does not free memory. If it ends before it gave a
+/// response, for whatever reason, a second process sends a ServerEnd to
+/// standard output, a socket as well. Returns the exit code.
+int serveCalls(const std::function<Response(std::string_view)> &Answer);
 
 } // namespace vorion

@@ -1,6 +1,6 @@
-/// What a process that serves a tool's calls and its client say to each other
-/// over a socket: texts, each behind its length. PoCL's driver has no library
-/// of ours, so all is here.
+/// What a server process and its client send each other over a socket: texts,
+/// each after its length, made of numbers and texts. PoCL's driver does not
+/// link a library of ours, so all is here.
 #pragma once
 
 #include <cerrno>
@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 #include <sys/socket.h>
-#include <vector>
+#include <type_traits>
 
 namespace vorion {
 
@@ -60,23 +60,112 @@ inline std::optional<std::string> receiveText(int Socket) {
   return Text;
 }
 
-/// What a tool is called with: the arguments behind its name.
-inline std::string callText(const std::vector<std::string> &Arguments) {
-  std::string Text;
-  for (const std::string &Argument : Arguments) {
-    Text += Argument;
-    Text += '\0';
+/// Writes numbers, as 64 bits, and texts, each after its length. A structure
+/// has one function template visit(Archive &, Structure &) that names its
+/// fields, which serves for FieldWriter and FieldReader.
+class FieldWriter {
+public:
+  std::string Bytes;
+
+  template <typename Number> void number(Number &Value) {
+    raw(static_cast<uint64_t>(Value));
   }
-  return Text;
+  void text(std::string &Text) {
+    raw(Text.size());
+    Bytes += Text;
+  }
+  template <typename List> void list(List &Elements) {
+    raw(Elements.size());
+    for (auto &Element : Elements)
+      visit(*this, Element);
+  }
+
+protected:
+  void raw(uint64_t Value) {
+    Bytes.append(reinterpret_cast<const char *>(&Value), sizeof(Value));
+  }
+};
+
+/// Reads what FieldWriter wrote. Bytes that are missing count as zeros, and
+/// isDone() tells.
+class FieldReader {
+public:
+  explicit FieldReader(std::string_view Bytes) : Rest(Bytes) {}
+
+  /// Whether all bytes were read, and none was missing.
+  bool isDone() const { return Rest.empty() && !IsShort; }
+
+  template <typename Number> void number(Number &Value) {
+    Value = static_cast<Number>(raw());
+  }
+  void text(std::string &Text) { Text = take(raw()); }
+  template <typename List> void list(List &Elements) {
+    Elements.resize(count());
+    for (auto &Element : Elements)
+      visit(*this, Element);
+  }
+
+protected:
+  uint64_t raw() {
+    uint64_t Value = 0;
+    if (Rest.size() < sizeof(Value)) {
+      IsShort = true;
+      return 0;
+    }
+    std::memcpy(&Value, Rest.data(), sizeof(Value));
+    Rest.remove_prefix(sizeof(Value));
+    return Value;
+  }
+  std::string_view take(uint64_t Size) {
+    IsShort |= Size > Rest.size();
+    const std::string_view Taken = Rest.substr(0, Size);
+    Rest.remove_prefix(Taken.size());
+    return Taken;
+  }
+  /// A number of elements. Each takes at least a number.
+  uint64_t count() {
+    const uint64_t Count = raw();
+    if (Count <= Rest.size() / sizeof(uint64_t))
+      return Count;
+    IsShort = true;
+    return 0;
+  }
+
+private:
+  std::string_view Rest;
+  bool IsShort = false;
+};
+
+template <typename Archive> void visit(Archive &A, std::string &Text) {
+  A.text(Text);
 }
-inline std::vector<std::string> argumentsOf(std::string_view Call) {
-  std::vector<std::string> Arguments;
-  while (!Call.empty()) {
-    const std::size_t End = Call.find('\0');
-    Arguments.emplace_back(Call.substr(0, End));
-    Call.remove_prefix(End + 1);
-  }
-  return Arguments;
+
+/// All of \p Value as one text.
+template <typename Structure> std::string textOf(Structure &Value) {
+  FieldWriter Out;
+  visit(Out, Value);
+  return std::move(Out.Bytes);
+}
+
+/// Fills \p Value with what textOf() gave. False if \p Text is something else.
+template <typename Structure>
+bool isReadInto(Structure &Value, std::string_view Text) {
+  FieldReader In(Text);
+  visit(In, Value);
+  return In.isDone();
+}
+
+/// How a server process ended, which the process that waits for it tells the
+/// client over a second socket.
+struct ServerEnd {
+  /// As waitpid() gives it: an exit code or a signal.
+  int WaitStatus = 0;
+  /// What it had printed since its last response.
+  std::string Printed;
+};
+template <typename Archive> void visit(Archive &A, ServerEnd &End) {
+  A.number(End.WaitStatus);
+  A.text(End.Printed);
 }
 
 } // namespace vorion

@@ -21,7 +21,6 @@ const pocl::CompilerFunctions vorion_compiler_functions = {
     pocl_llvm_get_kernel_count,
     pocl_llvm_get_kernels_metadata,
     pocl_llvm_generate_workgroup_function_nowrite,
-    pocl_write_module,
     pocl_destroy_llvm_module,
     pocl_append_to_buildlog,
-    vorion::writeKernelModule};
+    vorion::finishKernelModule};

@@ -137,10 +137,6 @@ int pocl_llvm_generate_workgroup_function_nowrite(
                                       Specialize);
 }
 
-int pocl_write_module(void *Module, const char *Path) {
-  return compiler()->WriteModule(Module, Path);
-}
-
 void pocl_destroy_llvm_module(void *Module, cl_context Context) {
   compilerFor(Context)->DestroyModule(Module, Context);
 }
@@ -153,10 +149,10 @@ void pocl_append_to_buildlog(cl_program Program, cl_uint Device, char *Log,
     free(Log);
 }
 
-std::string vorion::writeKernelModule(void *Module,
-                                      const KernelDescription &Kernel,
-                                      const std::string &Path) {
-  return compiler()->WriteKernelModule(Module, Kernel, Path);
+std::string vorion::finishKernelModule(void *Module,
+                                       const KernelDescription &Kernel,
+                                       std::string &Bitcode) {
+  return compiler()->FinishKernelModule(Module, Kernel, Bitcode);
 }
 
 // Of the host's processor, which is no device of this platform. PoCL asks for
@@ -167,6 +163,7 @@ void cpu_setup_vector_widths(cl_device_id) {}
 char *pocl_get_llvm_cpu_name() { return strdup(""); }
 const char *pocl_get_llvm_cpu_abi() { return nullptr; }
 int pocl_llvm_remove_file_on_signal(const char *) { return -1; }
+extern "C" int pocl_write_module(void *, const char *) { return -1; }
 int pocl_invoke_clang(cl_device_id, const char **) { return -1; }
 int pocl_llvm_codegen(cl_device_id, cl_program, void *, char **, uint64_t *) {
   return -1;

@@ -14,8 +14,6 @@
 #include "devices/vorion/KernelModule.h"
 #include "pocl_llvm.h"
 
-extern "C" int pocl_write_module(void *Module, const char *Path);
-
 namespace pocl {
 
 /// The library's functions, as they are declared.
@@ -31,10 +29,9 @@ struct CompilerFunctions {
   decltype(&pocl_llvm_get_kernel_count) KernelCount;
   decltype(&pocl_llvm_get_kernels_metadata) KernelsMetadata;
   decltype(&pocl_llvm_generate_workgroup_function_nowrite) WorkGroupFunction;
-  decltype(&pocl_write_module) WriteModule;
   decltype(&pocl_destroy_llvm_module) DestroyModule;
   decltype(&pocl_append_to_buildlog) AppendToBuildLog;
-  decltype(&vorion::writeKernelModule) WriteKernelModule;
+  decltype(&vorion::finishKernelModule) FinishKernelModule;
 };
 
 /// Where the library is: beside PoCL's own.

@@ -13,7 +13,6 @@ extern "C" {
 #include <vorion_abi.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -45,24 +44,18 @@ KernelDescription describe(cl_kernel Kernel, const size_t *LocalSize,
   return D;
 }
 
-/// Another process may make the same file at the same time: each writes its own
-/// and renames it.
-std::string renameInto(const std::string &From, const std::string &To) {
-  return pocl_rename(From.c_str(), To.c_str()) == 0
+/// Puts \p Bytes into the cache. Empty on success.
+std::string keep(const std::string &Path, const std::string &Bytes) {
+  return pocl_write_checked_file(Path.c_str(), Bytes.data(), Bytes.size()) == 0
              ? std::string()
-             : To + ": " + std::strerror(errno);
+             : Path + ": cannot be written";
 }
 
-/// Puts the image that the linker left in \p From into the cache.
-std::string keepImage(const std::string &From, const std::string &To) {
-  char *Bytes = nullptr;
-  uint64_t Size = 0;
-  if (pocl_read_file(From.c_str(), &Bytes, &Size) != 0)
-    return From + ": cannot be read: " + std::strerror(errno);
-  const int Status = pocl_write_checked_file(To.c_str(), Bytes, Size);
-  free(Bytes);
-  pocl_remove(From.c_str());
-  return Status == 0 ? std::string() : To + ": cannot be written";
+/// Writes \p Bytes for who asked for more than the image.
+std::string leave(const std::string &Path, const std::string &Bytes) {
+  return pocl_write_file(Path.c_str(), Bytes.data(), Bytes.size(), 0) == 0
+             ? std::string()
+             : Path + ": cannot be written";
 }
 
 /// Whether the cache has \p Path, unchanged since it was written.
@@ -72,16 +65,6 @@ bool isIntact(const std::string &Path) {
   const auto Found = pocl_read_checked_file(Path.c_str(), &Bytes, &Size);
   free(Bytes);
   return Found == POCL_CHECKED_FILE_OK;
-}
-
-/// Whether \p Output of a program says that files cannot be read or written,
-/// rather than what is wrong with their contents.
-bool namesFiles(const std::string &Output) {
-  for (const int Reason :
-       {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EIO, EMFILE, ENFILE})
-    if (Output.find(std::strerror(Reason)) != std::string::npos)
-      return true;
-  return false;
 }
 
 } // namespace
@@ -101,9 +84,10 @@ std::string KernelCache::imagePath(_cl_command_node *Command, cl_kernel Kernel,
 
 KernelCache::Problem KernelCache::problem(_cl_command_node *Command,
                                           cl_kernel Kernel,
-                                          const std::string &Text, bool Files) {
-  Problem P{Text, Files};
-  if (!Files)
+                                          const std::string &Text,
+                                          Problem::Cause Of) {
+  Problem P{Text, Of};
+  if (Of != Problem::Cause::Files)
     P.Text = std::string("kernel ") + Kernel->name + ": " + Text;
   else if (!Text.starts_with(CL_KERNEL_CACHE_PROBLEM_VORION))
     P.Text = CL_KERNEL_CACHE_PROBLEM_VORION + Text;
@@ -118,13 +102,11 @@ KernelCache::Problem KernelCache::make(_cl_command_node *Command,
                                        const std::string &ImagePath) {
   const unsigned DeviceIndex = Command->program_device_i;
   const std::string Base = fs::path(ImagePath).replace_extension().string();
-  const std::string Own = Base + "." + std::to_string(getpid());
-
   const char *Options = Kernel->program->compiler_options;
-  const bool Optimize = !Options || !strstr(Options, "-cl-opt-disable");
 
   pocl_forget_file_problem();
   std::string Text;
+  Problem::Cause Of = Problem::Cause::Kernel;
   void *Module = nullptr;
   if (pocl_mkdir_p(fs::path(Base).parent_path().c_str()))
     Text = "cannot make the folder of " + Base;
@@ -135,33 +117,35 @@ KernelCache::Problem KernelCache::make(_cl_command_node *Command,
     Text = "cannot make a work-group function of it";
   if (Module) {
     const size_t AnySize[3] = {0, 0, 0};
-    Text = writeKernelModule(
+    ImageRequest Request;
+    Request.Optimize = !Options || !strstr(Options, "-cl-opt-disable");
+    Request.WantsObject = pocl_is_option_set("VORION_KERNEL_FOLDER");
+    Text = finishKernelModule(
         Module,
         describe(Kernel,
                  Specialize ? Command->command.run.pc.local_size : AnySize,
                  Command->device->max_work_group_size),
-        Own + ".bc");
+        Request.Bitcode);
     pocl_destroy_llvm_module(Module, Kernel->context);
-    if (Text.empty())
-      Text = ToolSet.compile(Own + ".bc", Own + ".o", Optimize);
-    if (Text.empty())
-      Text = ToolSet.link(Own + ".o", Own + ".elf");
-    if (Text.empty())
-      Text = renameInto(Own + ".o", Base + ".o");
-    if (Text.empty())
-      Text = keepImage(Own + ".elf", ImagePath);
-    if (!pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0))
-      pocl_remove((Own + ".bc").c_str());
-    if (!Text.empty()) // nothing half made stays
-      for (const char *Kind : {".o", ".elf"})
-        pocl_remove((Own + Kind).c_str());
+    if (Text.empty() &&
+        pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0))
+      Text = leave(Base + ".bc", Request.Bitcode);
+    if (Text.empty()) {
+      const MadeImage Made = ToolSet.makeImage(Request);
+      Text = Made.Problem;
+      if (Made.Of == MadeImage::Cause::Resources)
+        Of = Problem::Cause::Resources;
+      if (Text.empty() && Request.WantsObject)
+        Text = leave(Base + ".o", Made.Object);
+      if (Text.empty())
+        Text = keep(ImagePath, Made.Image);
+    }
   }
   if (Text.empty())
     return {};
-
   if (pocl_file_problem())
-    return problem(Command, Kernel, pocl_file_problem(), true);
-  return problem(Command, Kernel, Text, namesFiles(Text));
+    return problem(Command, Kernel, pocl_file_problem(), Problem::Cause::Files);
+  return problem(Command, Kernel, Text, Of);
 }
 
 KernelCache::Problem KernelCache::compile(_cl_command_node *Command,
@@ -190,7 +174,9 @@ const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P,
   if (Status != VX_OK ||
       vx_image_find_kernel(Image, Kernel->name, &New.Number) != VX_OK ||
       vx_image_get_kernel(Image, New.Number, &New.Info) != VX_OK) {
-    P = problem(Command, Kernel, vx_last_error(), Status == VX_ERROR_FILE);
+    P = problem(Command, Kernel, vx_last_error(),
+                Status == VX_ERROR_FILE ? Problem::Cause::Files
+                                        : Problem::Cause::Kernel);
     return nullptr;
   }
   return &Kernels.emplace(Path, std::move(New)).first->second;

@@ -35,18 +35,24 @@ public:
 
   /// Why there is no image of a kernel.
   struct Problem {
-    std::string Text;   ///< empty if nothing is wrong
-    bool Files = false; ///< the cache cannot be used, the kernel is good
+    enum class Cause {
+      Kernel,    ///< it has an error, or the compiler has
+      Files,     ///< the cache cannot be used
+      Resources, ///< the compiler lacks memory, or cannot be started
+    };
+    std::string Text; ///< empty if nothing is wrong
+    Cause Of = Cause::Kernel;
 
     /// What a command that needed the image ends with.
     cl_int status() const {
-      return Files ? CL_OUT_OF_HOST_MEMORY : CL_BUILD_PROGRAM_FAILURE;
+      return Of == Cause::Kernel ? CL_BUILD_PROGRAM_FAILURE
+                                 : CL_OUT_OF_HOST_MEMORY;
     }
   };
 
-  /// Makes the object and the image of the command's kernel in the cache
-  /// folder, for its group size if \p Specialize, else for any, unless they are
-  /// there. What goes wrong is also added to the build log.
+  /// Makes the image of the command's kernel in the cache folder, for its group
+  /// size if \p Specialize, else for any, unless they are there. What goes
+  /// wrong is also added to the build log.
   Problem compile(_cl_command_node *Command, cl_kernel Kernel, bool Specialize);
 
   /// The command's kernel, compiled for its group size, or for any if not
@@ -76,7 +82,7 @@ private:
                                bool Specialize);
   /// What is wrong about the command's kernel, in the build log too.
   static Problem problem(_cl_command_node *Command, cl_kernel Kernel,
-                         const std::string &Text, bool Files);
+                         const std::string &Text, Problem::Cause Of);
   Problem make(_cl_command_node *Command, cl_kernel Kernel, bool Specialize,
                const std::string &ImagePath);
 

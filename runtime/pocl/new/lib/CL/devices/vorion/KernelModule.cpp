@@ -12,7 +12,6 @@
 #include <llvm/IR/Constants.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/Module.h>
-#include <llvm/Support/FileSystem.h>
 #include <llvm/Support/raw_ostream.h>
 #include <llvm/Transforms/Utils/ModuleUtils.h>
 
@@ -242,20 +241,15 @@ private:
 
 } // namespace
 
-std::string writeKernelModule(void *ModulePointer,
-                              const KernelDescription &Kernel,
-                              const std::string &Path) {
+std::string finishKernelModule(void *ModulePointer,
+                               const KernelDescription &Kernel,
+                               std::string &Bitcode) {
   Module &M = *static_cast<Module *>(ModulePointer);
   if (std::string Problem = Finisher(M, Kernel).run(); !Problem.empty())
     return Problem;
-  std::error_code Error;
-  raw_fd_ostream Out(Path, Error, sys::fs::OF_None);
-  if (!Error) {
-    WriteBitcodeToFile(M, Out);
-    Out.close();
-    Error = Out.error();
-  }
-  return Error ? Path + ": " + Error.message() : std::string();
+  raw_string_ostream Out(Bitcode);
+  WriteBitcodeToFile(M, Out);
+  return {};
 }
 
 } // namespace vorion

@@ -22,8 +22,8 @@ struct KernelDescription {
 };
 
 /// Finishes \p Module (an llvm::Module that PoCL's work-group passes made of
-/// the kernel) and writes it as bitcode. Empty on success, else what is wrong.
-std::string writeKernelModule(void *Module, const KernelDescription &Kernel,
-                              const std::string &Path);
+/// the kernel) and gives its bitcode. Empty on success, else what is wrong.
+std::string finishKernelModule(void *Module, const KernelDescription &Kernel,
+                               std::string &Bitcode);
 
 } // namespace vorion

@@ -1,8 +1,8 @@
 #include "Tools.h"
 
 #include "CompilerLibrary.h"
+#include "CompilerProcess.h"
 #include "FileState.h"
-#include "ToolServer.h"
 #include "vorion/support/Environment.h"
 #include "vorion/support/Hash.h"
 
@@ -34,24 +34,17 @@ fs::path libraryFile() {
   return fs::canonical(Info.dli_fname, Error);
 }
 
-/// Where a message of a tool is cut off.
-constexpr size_t MaxToolOutput = 65536;
-/// Where remarks are, of which there may be several a line.
-constexpr size_t MaxRemarks = size_t{16} << 20;
+/// Where a message of the compiler is cut off.
+constexpr size_t MaxPrinted = 65536;
 
 /// Options of vorion-clang, with blanks between and in quotes if they have
 /// some: which remarks to print, and -mllvm (docs/backend.md).
 const char *remarkOptions() { return environmentVariable("VORION_REMARKS"); }
 
 /// Remarks change the options of LLVM, which one process keeps for all calls.
-bool mayAskServers() {
+bool mayStay() {
   const char *Wanted = environmentVariable("VORION_TOOL_SERVERS");
   return !remarkOptions() && !(Wanted && std::string_view(Wanted) == "0");
-}
-
-std::string failure(const std::string &Tool, int Code,
-                    const std::string &Printed) {
-  return Tool + " failed (" + std::to_string(Code) + ")\n" + Printed;
 }
 
 /// Where of bitcode nothing is known but what it says itself, clang prints
@@ -85,23 +78,24 @@ Tools::Tools() {
       Places.push_back(Folder);
   std::error_code Error;
   for (const fs::path &Place : Places)
-    if (fs::exists(Place / "bin" / "vorion-clang", Error)) {
+    if (fs::exists(Place / "bin" / "vorion-compiler", Error)) {
       Root = Place;
       return;
     }
   const char *Given = environmentVariable("VORION_ROOT");
-  Problem = "cannot find bin/vorion-clang below " +
+  Problem = "cannot find bin/vorion-compiler below " +
             (Given ? "VORION_ROOT, '" + std::string(Given) + "'"
                    : libraryFile().parent_path().string() +
                          " or above; set VORION_ROOT");
 }
 
+std::string Tools::compiler() const { return Root + "/bin/vorion-compiler"; }
+
 std::string Tools::fingerprint() const {
-  std::vector<fs::path> Files = {libraryFile(), pocl::compilerLibraryFile(),
-                                 fs::path(Root) / "bin" / "vorion-clang",
-                                 fs::path(Root) / "bin" / "vorion-link",
-                                 fs::path(Root) / "pocl" / "share" / "pocl" /
-                                     "kernel-vorion.bc"};
+  std::vector<fs::path> Files = {
+      libraryFile(), pocl::compilerLibraryFile(), compiler(),
+      fs::path(Root) / "bin" / "vorion-clang.cfg",
+      fs::path(Root) / "pocl" / "share" / "pocl" / "kernel-vorion.bc"};
   std::error_code Error;
   for (const char *Folder : {"lib/vorion", "include/vorion"})
     for (const auto &Entry :
@@ -115,53 +109,35 @@ std::string Tools::fingerprint() const {
   return std::to_string(fnv1a(All));
 }
 
-std::string Tools::run(std::vector<std::string> Arguments) const {
+MadeImage Tools::makeImage(ImageRequest Request) const {
+  const auto Refuse = [](std::string Text, const std::string &Printed,
+                         MadeImage::Cause Of) {
+    if (!Printed.empty())
+      Text += "\n" + Printed.substr(0, MaxPrinted);
+    return MadeImage{{}, {}, std::move(Text), Of};
+  };
+  using enum MadeImage::Cause;
   if (!Problem.empty())
-    return Problem;
-  if (mayAskServers())
-    if (const auto Answer = askToolServer(
-            Arguments[0], {Arguments.begin() + 1, Arguments.end()}))
-      return Answer->Code == 0
-                 ? std::string()
-                 : failure(Arguments[0], Answer->Code,
-                           Answer->Printed.substr(0, MaxToolOutput));
-  std::vector<char *> Pointers;
-  for (std::string &Argument : Arguments)
-    Pointers.push_back(Argument.data());
-  Pointers.push_back(nullptr);
-  std::string Output(remarkOptions() ? MaxRemarks : MaxToolOutput, '\0');
-  size_t Bytes = Output.size();
-  const int Status =
-      pocl_run_command_capture_output(Output.data(), &Bytes, Pointers.data());
-  Output.resize(Bytes);
-  if (Status == 0) {
-    if (remarkOptions())
-      printRemarks(Output);
-    return {};
-  }
-  return failure(Arguments[0], Status, Output);
-}
-
-std::string Tools::compile(const std::string &Bitcode,
-                           const std::string &Object, bool Optimize) const {
-  std::vector<std::string> Arguments = {Root + "/bin/vorion-clang",
-                                        "-x",
-                                        "ir",
-                                        Optimize ? "-O2" : "-O0",
-                                        "-ffp-contract=off",
-                                        "-c",
-                                        Bitcode,
-                                        "-o",
-                                        Object};
+    return Refuse(Problem, {}, Resources);
   std::istringstream Remarks(remarkOptions() ? remarkOptions() : "");
   for (std::string Option; Remarks >> std::quoted(Option);)
-    Arguments.push_back(Option);
-  return run(std::move(Arguments));
-}
-
-std::string Tools::link(const std::string &Object,
-                        const std::string &Image) const {
-  return run({Root + "/bin/vorion-link", Object, "-o", Image});
+    Request.Options.push_back(Option);
+  const auto Response = askCompiler(compiler(), textOf(Request), mayStay());
+  if (const auto *Why = std::get_if<CompilerFailure>(&Response))
+    return Refuse(Why->Text, Why->Printed,
+                  Why->LackedResources ? Resources : Kernel);
+  ImageAnswer Answer;
+  if (!isReadInto(Answer, std::get<std::string>(Response)))
+    return Refuse(compiler() + " is of another version", {}, Resources);
+  if (Answer.Image.empty())
+    return Refuse(
+        std::string("cannot be ") +
+            (Answer.IsCompiled ? "linked" : "compiled for the machine") +
+            ", expected a kernel that can",
+        Answer.Printed, Kernel);
+  if (remarkOptions())
+    printRemarks(Answer.Printed);
+  return {std::move(Answer.Image), std::move(Answer.Object), {}, {}};
 }
 
 } // namespace vorion

@@ -1,39 +1,47 @@
-/// The compiler and linker of device code, run in processes beside this one:
-/// LLVM's command line options are registered once a process, and ours differ
-/// from PoCL's LLVM.
+/// The installation that this library belongs to: its compiler of device code
+/// and its headers.
 #pragma once
 
+#include "CompilerMessages.h"
+
 #include <string>
-#include <vector>
 
 namespace vorion {
 
+/// What was made of a kernel's bitcode.
+struct MadeImage {
+  enum class Cause {
+    Kernel,    ///< it has an error, or the compiler has
+    Resources, ///< the compiler lacks memory, or cannot be started
+  };
+  std::string Image;   ///< an ELF file
+  std::string Object;  ///< if it was requested
+  std::string Problem; ///< why there is no image: a line, and what was printed
+  Cause Of = Cause::Kernel; ///< whose problem
+};
+
 class Tools {
 public:
-  /// Looks for bin/vorion-clang below VORION_ROOT, else below the folders above
-  /// this library.
+  /// Looks for bin/vorion-compiler below VORION_ROOT, else below the folders
+  /// above this library.
   Tools();
 
-  /// Empty if the tools were found, else what is missing.
+  /// Empty if the compiler was found, else what is missing.
   const std::string &problem() const { return Problem; }
 
   /// Headers for kernels.
   std::string includeFolder() const { return Root + "/include/vorion"; }
 
-  /// Changes whenever this library, the compiler's, a tool or the device
-  /// library does. Part of the key of cached binaries.
+  /// Changes whenever this library, a compiler or the device library does. Part
+  /// of the key of cached binaries.
   std::string fingerprint() const;
 
-  /// Bitcode to a relocatable object; unless \p Optimize, with variables where
-  /// debuggers find them. Empty on success, else the tool's output.
-  std::string compile(const std::string &Bitcode, const std::string &Object,
-                      bool Optimize) const;
-
-  /// An object to an image that can be loaded.
-  std::string link(const std::string &Object, const std::string &Image) const;
+  /// Compiles with the options of VORION_REMARKS, too, and prints the remarks.
+  MadeImage makeImage(ImageRequest Request) const;
 
 private:
-  std::string run(std::vector<std::string> Arguments) const;
+  std::string compiler() const;
+
   std::string Root, Problem;
 };
 

@@ -1,0 +1,137 @@
+#include "MachineCode.h"
+
+#include "Lld.h"
+#include "MemoryFile.h"
+#include "ObjectCheck.h"
+#include "Program.h"
+#include "vorion/support/Diagnostics.h"
+
+#include "llvm/Support/VirtualFileSystem.h"
+
+#include "clang/Basic/DiagnosticOptions.h"
+#include "clang/Driver/Compilation.h"
+#include "clang/Driver/Driver.h"
+#include "clang/Driver/ToolChain.h"
+#include "clang/Frontend/TextDiagnosticPrinter.h"
+#include "llvm/Support/LLVMDriver.h"
+#include "llvm/Support/raw_ostream.h"
+#include "llvm/TargetParser/Host.h"
+
+#include <span>
+
+int clang_main(int Argc, char **Argv, const llvm::ToolContext &Context);
+
+namespace vorion {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr const char *NoMemory =
+    "memory ran out while a kernel was compiled, expected more";
+
+/// The call of the compiler proper that vorion-clang makes for \p Line. Empty,
+/// and messages on standard error, if there is none.
+Words compilerCall(const Words &Line) {
+  using namespace clang;
+  auto Options = llvm::makeIntrusiveRefCnt<DiagnosticOptions>();
+  DiagnosticsEngine Messages(
+      llvm::makeIntrusiveRefCnt<DiagnosticIDs>(), Options,
+      new TextDiagnosticPrinter(llvm::errs(), Options.get()));
+  driver::Driver Driver(Line[0], llvm::sys::getDefaultTargetTriple(), Messages);
+  Driver.setTargetAndMode(
+      driver::ToolChain::getTargetAndModeFromProgramName(Line[0]));
+  std::vector<const char *> Pointers;
+  Pointers.reserve(Line.size());
+  for (const std::string &Word : Line)
+    Pointers.push_back(Word.c_str());
+  const std::unique_ptr<driver::Compilation> Steps(
+      Driver.BuildCompilation(Pointers));
+  if (!Steps || Steps->containsError() || Steps->getJobs().size() != 1)
+    return {};
+  Words Call = {Line[0]};
+  for (const char *Word : Steps->getJobs().begin()->getArguments())
+    Call.emplace_back(Word);
+  return Call;
+}
+
+/// Whether \p Call succeeded.
+bool runCompiler(Words Call) {
+  std::vector<char *> Pointers;
+  Pointers.reserve(Call.size());
+  for (std::string &Word : Call)
+    Pointers.push_back(Word.data());
+  return clang_main(static_cast<int>(Pointers.size()), Pointers.data(),
+                    {Pointers[0], nullptr, false}) == 0;
+}
+
+/// The program of \p Object, which \p Out gets first.
+Expected<std::string> linkObject(const MemoryFile &Object,
+                                 const MemoryFile &Out) {
+  const std::string Bytes = Object.contents();
+  if (const auto Good =
+          link::checkInput(std::as_bytes(std::span(Bytes)), Object.path());
+      !Good)
+    return Good.error();
+  const auto Arguments = link::programArguments({Object.path(), "-o", "-"});
+  if (!Arguments)
+    return Arguments.error();
+  {
+    const OutputTo Linked(Out);
+    if (!link::callLld(*Arguments))
+      return Error{"", "the link failed, expected no errors of ld.lld-19 (see "
+                       "its messages above)"};
+  }
+  std::string Program = Out.contents();
+  const auto Completed = link::completeProgram(
+      std::as_writable_bytes(std::span(Program)), "the program");
+  if (!Completed)
+    return Completed.error();
+  return Program;
+}
+
+/// What vorion-clang is called with to make an object of \p Bitcode on standard
+/// output.
+Words commandLine(const ImageRequest &Request, const std::string &Bin,
+                  const MemoryFile &Bitcode) {
+  Words Line = {Bin + "/vorion-clang",
+                "-x",
+                "ir",
+                Request.Optimize ? "-O2" : "-O0",
+                "-ffp-contract=off",
+                "-c",
+                Bitcode.path(),
+                "-o",
+                "-"};
+  Line.insert(Line.end(), Request.Options.begin(), Request.Options.end());
+  return Line;
+}
+
+} // namespace
+
+ImageAnswer makeImage(const ImageRequest &Request, const std::string &Bin) {
+  ImageAnswer Made;
+  const MemoryFile Bitcode(Request.Bitcode), Object, Out;
+  if (!Bitcode.isGood() || !Object.isGood() || !Out.isGood()) {
+    reportError("vorion-compiler", {"", NoMemory});
+    return Made;
+  }
+  Words Call = compilerCall(commandLine(Request, Bin, Bitcode));
+  {
+    const OutputTo Compiled(Object);
+    Made.IsCompiled = !Call.empty() && runCompiler(std::move(Call));
+  }
+  if (!Made.IsCompiled)
+    return Made;
+  Expected<std::string> Program = linkObject(Object, Out);
+  if (!Program) {
+    reportError("vorion-compiler", Program.error());
+    return Made;
+  }
+  Made.Image = std::move(*Program);
+  if (Request.WantsObject)
+    Made.Object = Object.contents();
+  return Made;
+}
+
+} // namespace vorion

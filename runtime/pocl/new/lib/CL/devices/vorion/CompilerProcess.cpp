@@ -1,0 +1,214 @@
+#include "CompilerProcess.h"
+
+#include "vorion/support/ToolMessages.h"
+
+#include <cstring>
+#include <fcntl.h>
+#include <mutex>
+#include <optional>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+extern char **environ;
+
+namespace vorion {
+
+namespace {
+
+constexpr int LimitReached = 5; // of vorion::ExitCode
+constexpr const char *Wanted = ", expected an image or errors in the kernel";
+
+/// Which file a descriptor is of; 0 of none.
+ino_t fileOf(int Descriptor) {
+  struct stat State{};
+  return fstat(Descriptor, &State) == 0 && S_ISSOCK(State.st_mode)
+             ? State.st_ino
+             : 0;
+}
+
+/// The other end of a socket of the compiler. A program may close all
+/// descriptors that it does not know, and get the number for a file of its own:
+/// that one is left alone.
+class Socket {
+public:
+  explicit Socket(int Number) : Number(Number), File(fileOf(Number)) {}
+  Socket(Socket &&Other) noexcept
+      : Number(Other.Number), File(std::exchange(Other.File, 0)) {}
+  ~Socket() {
+    if (isThere())
+      close(Number);
+  }
+
+  int number() const { return Number; }
+  std::optional<std::string> receive() {
+    return isThere() ? receiveText(Number) : std::nullopt;
+  }
+  bool send(const std::string &Text) {
+    return isThere() && sendText(Number, Text);
+  }
+
+private:
+  bool isThere() const { return File != 0 && fileOf(Number) == File; }
+
+  int Number;
+  ino_t File; ///< 0 if it is another's
+};
+
+/// The compiler ends when the first socket is closed, so with this process at
+/// the latest.
+struct Server {
+  Socket Calls, End;
+
+  /// Nothing if it ended.
+  std::optional<std::string> call(const std::string &Request) {
+    if (!Calls.send(Request))
+      return std::nullopt;
+    return Calls.receive();
+  }
+
+  CompilerFailure failure() {
+    ServerEnd Ended;
+    const auto Text = End.receive();
+    if (!Text || !isReadInto(Ended, *Text))
+      return {std::string("the compiler was ended") + Wanted, {}};
+    const int Status = Ended.WaitStatus;
+    if (WIFSIGNALED(Status))
+      return {"the compiler crashed (signal " +
+                  std::to_string(WTERMSIG(Status)) + ", " +
+                  strsignal(WTERMSIG(Status)) + ")" + Wanted,
+              {}};
+    return {"the compiler ended with exit code " +
+                std::to_string(WEXITSTATUS(Status)) + Wanted,
+            Ended.Printed, WEXITSTATUS(Status) == LimitReached};
+  }
+};
+
+/// Both ends of a socket.
+struct Ends {
+  Socket Ours, Theirs;
+};
+
+std::optional<Ends> makeSocket() {
+  int Both[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, Both) != 0)
+    return std::nullopt;
+  return Ends{Socket(Both[0]), Socket(Both[1])};
+}
+
+/// What is started ends at once and leaves the compiler to nobody, so that a
+/// program which waits for its own children is not kept. Gives an error's
+/// number.
+int spawn(const std::string &Compiler, int Calls, int End) {
+  posix_spawn_file_actions_t Files;
+  posix_spawn_file_actions_init(&Files);
+  posix_spawn_file_actions_adddup2(&Files, Calls, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&Files, End, STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&Files, STDERR_FILENO, "/dev/null", O_WRONLY,
+                                   0);
+  // As a program gets its signals that a shell starts.
+  posix_spawnattr_t Attributes;
+  posix_spawnattr_init(&Attributes);
+  sigset_t None, All;
+  sigemptyset(&None);
+  sigfillset(&All);
+  posix_spawnattr_setsigmask(&Attributes, &None);
+  posix_spawnattr_setsigdefault(&Attributes, &All);
+  posix_spawnattr_setflags(&Attributes,
+                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  std::string Name = Compiler, Option = ServeCalls;
+  char *const Arguments[] = {Name.data(), Option.data(), nullptr};
+  pid_t Child = 0;
+  const int Problem = posix_spawn(&Child, Compiler.c_str(), &Files, &Attributes,
+                                  Arguments, environ);
+  posix_spawnattr_destroy(&Attributes);
+  posix_spawn_file_actions_destroy(&Files);
+  while (Problem == 0 && waitpid(Child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  return Problem;
+}
+
+std::variant<Server, CompilerFailure> start(const std::string &Compiler) {
+  auto Calls = makeSocket(), End = makeSocket();
+  const int Problem = Calls && End ? spawn(Compiler, Calls->Theirs.number(),
+                                           End->Theirs.number())
+                                   : errno;
+  if (Problem == 0)
+    return Server{std::move(Calls->Ours), std::move(End->Ours)};
+  return CompilerFailure{
+      Compiler + " cannot be started: " + strerror(Problem), {}, true};
+}
+
+/// Compilers that nobody uses.
+class Idle {
+public:
+  std::optional<Server> take() {
+    const std::lock_guard Hold(Lock);
+    forget();
+    if (Servers.empty())
+      return std::nullopt;
+    Server Last = std::move(Servers.back());
+    Servers.pop_back();
+    return Last;
+  }
+  void keep(Server S) {
+    const std::lock_guard Hold(Lock);
+    forget();
+    Servers.push_back(std::move(S));
+  }
+
+private:
+  /// A forked process leaves those that it has to its parent: two must not talk
+  /// over one socket.
+  void forget() {
+    if (Owner != getpid())
+      Servers.clear();
+    Owner = getpid();
+  }
+  std::mutex Lock;
+  std::vector<Server> Servers;
+  pid_t Owner = getpid();
+};
+
+/// Kernels may be compiled while the program's static objects go.
+Idle &idle() {
+  static Idle *const All = new Idle;
+  return *All;
+}
+
+} // namespace
+
+std::variant<std::string, CompilerFailure>
+askCompiler(const std::string &Compiler, const std::string &Request,
+            bool Stays) {
+  // One that is idle may have ended for many reasons, as it does after some
+  // time.
+  while (Stays) {
+    auto Used = idle().take();
+    if (!Used)
+      break;
+    if (auto Response = Used->call(Request)) {
+      idle().keep(std::move(*Used));
+      return *Response;
+    }
+  }
+  CompilerFailure Why;
+  for (int Try = 0; Try < 2; ++Try) {
+    auto New = start(Compiler);
+    if (const auto *Problem = std::get_if<CompilerFailure>(&New))
+      return *Problem;
+    auto &Made = std::get<Server>(New);
+    if (auto Response = Made.call(Request)) {
+      if (Stays)
+        idle().keep(std::move(Made));
+      return *Response;
+    }
+    Why = Made.failure();
+  }
+  return Why;
+}
+
+} // namespace vorion
