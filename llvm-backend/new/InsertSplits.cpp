@@ -131,7 +131,7 @@ private:
       tellOf(*S.Branch, placeOf(*S.Branch), "split", vorion::remarks::Split,
              "lanes may part at this branch: vx_split before it, and vx_join "
              "where its sides meet" +
-                 lineOf(*S.Meeting),
+                 vorion::lineOf(*S.Meeting),
              Why.of(*S.Branch));
     for (auto &[L, Exit] : PredicatedLoops) {
       const bool OfItems = isLoopOfItems(*Exit);
@@ -178,14 +178,6 @@ private:
     if (L && L->isLoopExiting(Branch.getParent()) && L->getStartLoc())
       return L->getStartLoc();
     return vorion::placeOf(F);
-  }
-
-  /// " (line 12)" of the first line of \p Block.
-  static std::string lineOf(const BasicBlock &Block) {
-    for (const Instruction &I : Block)
-      if (I.getDebugLoc() && I.getDebugLoc().getLine())
-        return " (line " + std::to_string(I.getDebugLoc().getLine()) + ")";
-    return {};
   }
 
   /// Gives splits whose paths are all their own a meeting place of their own.

@@ -7,9 +7,10 @@
 //   4. tests that lanes agree in are marked, and short sides of divergent
 //      branches become selects;
 //   5. loops that lanes leave apart get one exit, in the latch;
-//   6. splits, joins and predicates.
-// It does not structurize: lanes meet at the immediate post-dominator, however
-// paths cross before it, so no code is moved or guarded anew.
+//   6. blocks that several paths reach are executed once, unless they are short;
+//   7. splits, joins and predicates.
+// Lanes reconverge at the immediate post-dominator, however paths cross before
+// it: what is short may stay executed once for each path.
 //
 //===----------------------------------------------------------------------===//
 
@@ -159,6 +160,7 @@ void alignLoops(Function &F, FunctionAnalysisManager &Analyses) {
     };
     Again = mark(vorion::markDivergentJoins) ||
             vorion::mergeLoopExits(F, Analyses) ||
+            vorion::reconvergeEarly(F, Analyses) ||
             mark(vorion::markRepeatedBlocks);
     if (Again)
       Analyses.invalidate(F, PreservedAnalyses::none());
@@ -271,13 +273,20 @@ bool vorion::lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
     F.getContext().diagnose(DiagnosticInfoUnsupported(
         F, B.Warning, B.Call->getDebugLoc(), DS_Warning));
 
-  if (Optimize && !F.hasOptNone()) {
+  const bool Selects = Optimize && !F.hasOptNone();
+  auto select = [&] {
+    bool Any = false;
+    for (; vorion::selectShortSides(F, Analyses, Subtarget); Any = true)
+      changed();
+    return Any;
+  };
+  if (Selects) {
     if (vorion::raiseInvariants(F, Analyses))
       changed();
     while (vorion::markUniformTests(F, Analyses))
       changed();
-    while (vorion::selectShortSides(F, Analyses, Subtarget))
-      changed();
+    select();
+    vorion::remarkSidesKept(F, Analyses, Subtarget);
   }
 
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
@@ -288,7 +297,10 @@ bool vorion::lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
   // Outlining would move splits, joins and their tokens into functions of
   // their own, where VerifySplits.cpp cannot follow them.
   F.addFnAttr("nooutline");
-  alignLoops(F, Analyses);
+  // Behind a hub, what led to a shared block may be a short side.
+  do
+    alignLoops(F, Analyses);
+  while (Selects && select());
   vorion::insertSplits(F, Analyses);
   return true;
 }

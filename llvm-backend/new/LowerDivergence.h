@@ -39,6 +39,10 @@ using BlockSet = SmallPtrSet<BasicBlock *, 16>;
 /// passing \p Until (which may be null).
 BlockSet blocksBefore(BasicBlock *From, BasicBlock *Until);
 
+/// The blocks that both sides of the branch of \p Block lead to before they
+/// meet at \p Meeting (which may be null).
+BlockSet sharedBlocks(const BasicBlock &Block, BasicBlock *Meeting);
+
 /// Whether the lanes that start an iteration of \p L also end it together: it
 /// has one exit that every iteration passes (where vx_pred can hold lanes
 /// back), or lanes leave it only together, and wherever they part they meet
@@ -56,6 +60,11 @@ BranchInst *soleExit(const Loop &L, const DominatorTree &Dominators);
 /// loop-simplify and LCSSA form.
 bool mergeLoopExits(Function &F, FunctionAnalysisManager &Analyses);
 
+/// Makes basic blocks that both sides of a divergent branch reach execute once,
+/// where that is cheaper. True if there was one; \p Analyses are then stale.
+/// All loops are in step.
+bool reconvergeEarly(Function &F, FunctionAnalysisManager &Analyses);
+
 /// All of them, in order. False if \p F is not to be compiled further.
 bool lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
                      const RISCVSubtarget &Subtarget, bool Optimize);
@@ -68,6 +77,10 @@ bool callPointersInTurn(Function &F, UniformityInfo &Uniform);
 /// execute by selects. True if there were any; \p Analyses are then stale.
 bool selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
                       const RISCVSubtarget &Subtarget);
+
+/// Says why the other divergent branches stay.
+void remarkSidesKept(Function &F, FunctionAnalysisManager &Analyses,
+                     const RISCVSubtarget &Subtarget);
 
 /// Moves what LLVM sank behind a loop in front of it again, where fewer values
 /// are then alive across the loop. True if there was anything.

@@ -24,6 +24,7 @@ inline constexpr const char *Barrier = "vorion-barrier";
 inline constexpr const char *Constant = "vorion-constant";
 inline constexpr const char *Loop = "vorion-loop";
 inline constexpr const char *Raise = "vorion-raise";
+inline constexpr const char *Reconverge = "vorion-reconverge";
 inline constexpr const char *Repeat = "vorion-repeat";
 inline constexpr const char *Select = "vorion-select";
 inline constexpr const char *Split = "vorion-split";
@@ -37,6 +38,14 @@ inline DebugLoc placeOf(const Function &F) {
   return Source ? DebugLoc(DILocation::get(F.getContext(), Source->getLine(), 0,
                                            Source))
                 : DebugLoc();
+}
+
+/// " (line 12)" of the first line of \p Block; empty without line numbers.
+inline std::string lineOf(const BasicBlock &Block) {
+  for (const Instruction &I : Block)
+    if (I.getDebugLoc() && I.getDebugLoc().getLine())
+      return " (line " + std::to_string(I.getDebugLoc().getLine()) + ")";
+  return {};
 }
 
 /// Where \p I is, or else what it is computed from; no place if neither has a

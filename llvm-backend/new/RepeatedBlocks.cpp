@@ -30,6 +30,15 @@ bool dependsOnTime(const Instruction &I) {
 
 } // namespace
 
+vorion::BlockSet vorion::sharedBlocks(const BasicBlock &Block,
+                                      BasicBlock *Meeting) {
+  const Instruction *Branch = Block.getTerminator();
+  BlockSet Shared = blocksBefore(Branch->getSuccessor(0), Meeting);
+  const BlockSet Other = blocksBefore(Branch->getSuccessor(1), Meeting);
+  Shared.remove_if([&](BasicBlock *Reached) { return !Other.count(Reached); });
+  return Shared;
+}
+
 bool vorion::markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
                                 const PostDominatorTree &PostDominators) {
   SmallPtrSet<BasicBlock *, 16> Repeated;
@@ -39,11 +48,8 @@ bool vorion::markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
     const auto *Node = PostDominators.getNode(&Block);
     BasicBlock *Meeting =
         Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
-    Instruction *Branch = Block.getTerminator();
-    BlockSet First = blocksBefore(Branch->getSuccessor(0), Meeting);
-    for (BasicBlock *Other : blocksBefore(Branch->getSuccessor(1), Meeting))
-      if (First.count(Other))
-        Repeated.insert(Other);
+    const BlockSet Shared = sharedBlocks(Block, Meeting);
+    Repeated.insert(Shared.begin(), Shared.end());
   }
 
   LLVMContext &Context = F.getContext();

@@ -102,10 +102,10 @@ private:
   bool isCheaper() {
     Limit = Sides.size() == 2 ? TwoSidedLimit : OneSidedLimit;
     Cost = 0;
-    for (const PHINode &Phi : Meeting->phis()) {
-      const Value *T = Phi.getIncomingValueForBlock(FromTrue);
-      const Value *F = Phi.getIncomingValueForBlock(FromFalse);
-      if (T != F)
+    for (PHINode &Phi : Meeting->phis()) {
+      Value *T = Phi.getIncomingValueForBlock(FromTrue);
+      Value *F = Phi.getIncomingValueForBlock(FromFalse);
+      if (!oneOf(T, F))
         Cost += SelectWeight * selectCost(*T, *F);
     }
     for (const BasicBlock *Side : Sides)
@@ -219,7 +219,20 @@ private:
     }
     if (!Kind->isIntOrPtrTy())
       return InstructionCost::getInvalid();
-    return Words * (isZero(T) || isZero(F) ? 1 : PerWord);
+    // Between a condition and a constant it is a logical operation.
+    const bool IsLogical = Kind->isIntegerTy(1) && (isOne(T) || isOne(F));
+    return Words * (isZero(T) || isZero(F) || IsLogical ? 1 : PerWord);
+  }
+  /// What all lanes may take where \p T or \p F would be chosen, if there is.
+  static Value *oneOf(Value *T, Value *F) {
+    return isa<PoisonValue>(T)             ? F
+           : T == F || isa<PoisonValue>(F) ? T
+                                           : nullptr;
+  }
+
+  static bool isOne(const Value &V) {
+    const auto *C = dyn_cast<ConstantInt>(&V);
+    return C && C->isOne();
   }
   static bool isZero(const Value &V) {
     const auto *C = dyn_cast<Constant>(&V);
@@ -233,8 +246,9 @@ private:
     for (PHINode &Phi : Meeting->phis()) {
       Value *T = Phi.getIncomingValueForBlock(FromTrue);
       Value *F = Phi.getIncomingValueForBlock(FromFalse);
-      Value *Chosen =
-          T == F ? T : Builder.CreateSelect(Branch.getCondition(), T, F);
+      Value *Chosen = oneOf(T, F);
+      if (!Chosen)
+        Chosen = Builder.CreateSelect(Branch.getCondition(), T, F);
       // The edge of the last side will be Head's.
       Phi.setIncomingValueForBlock(FromTrue, Chosen);
       Phi.setIncomingValueForBlock(FromFalse, Chosen);
@@ -265,20 +279,6 @@ private:
   const char *Obstacle = nullptr;
 };
 
-/// Says why branches stay; those that leave loops never were meant to go.
-template <typename Function>
-void remarkKept(ArrayRef<BasicBlock *> Heads, const LoopInfo &Loops,
-                Function Obstacle) {
-  for (BasicBlock *Head : Heads) {
-    const Loop *L = Loops.getLoopFor(Head);
-    if (!L || !L->isLoopExiting(Head))
-      vorion::remark<OptimizationRemarkMissed>(
-          vorion::remarks::Select, "Kept", *Head->getTerminator(), [&] {
-            return "divergent branch not made branchless: " + Obstacle(*Head);
-          });
-  }
-}
-
 } // namespace
 
 bool vorion::selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
@@ -295,11 +295,26 @@ bool vorion::selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
   bool Changed = false;
   for (BasicBlock *Head : Heads)
     Changed |= SideSelector(*Head, TTI, Subtarget).run();
-  // The last round changes nothing.
-  if (!Changed &&
-      OptimizationRemarkEmitter::allowExtraAnalysis(F, vorion::remarks::Select))
-    remarkKept(Heads, Analyses.getResult<LoopAnalysis>(F), [&](auto &Head) {
-      return SideSelector(Head, TTI, Subtarget).obstacle();
-    });
   return Changed;
+}
+
+void vorion::remarkSidesKept(Function &F, FunctionAnalysisManager &Analyses,
+                             const RISCVSubtarget &Subtarget) {
+  if (!Enabled ||
+      !OptimizationRemarkEmitter::allowExtraAnalysis(F, remarks::Select))
+    return;
+  const TargetTransformInfo &TTI = Analyses.getResult<TargetIRAnalysis>(F);
+  auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
+  auto &Loops = Analyses.getResult<LoopAnalysis>(F);
+  for (BasicBlock *Head : post_order(&F)) {
+    // Branches that leave loops are never made branchless.
+    const Loop *L = Loops.getLoopFor(Head);
+    if (!branchesApart(Uniform, *Head) || (L && L->isLoopExiting(Head)))
+      continue;
+    remark<OptimizationRemarkMissed>(
+        remarks::Select, "Kept", *Head->getTerminator(), [&] {
+          return "divergent branch not made branchless: " +
+                 SideSelector(*Head, TTI, Subtarget).obstacle();
+        });
+  }
 }

@@ -79,6 +79,11 @@ constexpr std::pair<StringLiteral, Step> Steps[] = {
         const RISCVSubtarget &) {
        return vorion::mergeLoopExits(F, Analyses);
      }},
+    {"vorion-reconverge",
+     [](Function &F, FunctionAnalysisManager &Analyses,
+        const RISCVSubtarget &) {
+       return vorion::reconvergeEarly(F, Analyses);
+     }},
     {"vorion-repeated-blocks", markIn<vorion::markRepeatedBlocks>},
     {"vorion-insert-splits",
      [](Function &F, FunctionAnalysisManager &Analyses,

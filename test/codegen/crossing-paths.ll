@@ -1,8 +1,9 @@
 ; `if (a && b) X; else Y;`: Y is reached from both conditions, so lanes come there
 ; with one split open or with two. They meet behind both; on the paths without
-; the second split its token is the depth, which makes its join do nothing.
+; the second split its token is the depth, which makes its join do nothing. This is
+; so where Y is too short for lanes to wait in front of it (reconvergence.ll).
 ; REQUIRES: vorion-llc
-; RUN: vorion-llc -mtriple=riscv32 -mcpu=vorion < %s | FileCheck %s
+; RUN: vorion-llc -mtriple=riscv32 -mcpu=vorion -vorion-reconverge=false < %s | FileCheck %s
 
 declare i32 @vorion.vx_thread_id() convergent
 declare void @sink(i32)
