@@ -145,34 +145,44 @@ const std::vector<Function> OfGroups = {
      }},
 };
 
-/// A kernel that writes every function's result, and 0 where \p Condition does
-/// not hold.
+/// A kernel that writes every function's result, and 0 where a work-item does
+/// not come to `CALL` in \p Body.
 std::string kernelOf(const std::vector<Function> &Functions,
-                     const std::string &Condition) {
+                     const std::string &Body) {
+  const auto replaceAll = [](std::string Text, const std::string &Old,
+                             const std::string &New) {
+    for (std::size_t At = 0; (At = Text.find(Old, At)) != std::string::npos;
+         At += New.size())
+      Text.replace(At, Old.size(), New);
+    return Text;
+  };
+  // What `again` reads is not known before it is read.
   std::string Source =
       "kernel void call(global const int *in, global int *out) {\n"
-      "  const size_t i = get_global_id(0);\n  const int x = in[i];\n";
+      "  const size_t i = get_global_id(0);\n  const int x = in[i];\n"
+      "  const volatile global int *again = in + i;\n  volatile int side = "
+      "0;\n";
   const std::string Count = std::to_string(Functions.size());
   for (std::size_t F = 0; F < Functions.size(); ++F) {
     const std::string Place =
         "out[i * " + Count + " + " + std::to_string(F) + "]";
-    Source += "  " + Place + " = 0;\n";
-    Source += Condition.empty() ? "  " : "  if (" + Condition + ")\n    ";
-    Source += Place + " = " + Functions[F].Call + ";\n";
+    Source += "  " + Place + " = 0;\n  {";
+    Source += replaceAll(
+        replaceAll(Body, "CALL", Place + " = " + Functions[F].Call + ";"),
+        "LABEL", "label" + std::to_string(F));
+    Source += "}\n";
   }
   return Source + "}\n";
 }
 
 /// Runs \p Functions in groups of all sizes, in OpenCL C of \p Language. They
 /// are over \p Width consecutive work-items of a group, of which those take
-/// part for which \p Takes holds.
+/// part for which \p Takes holds, which says who comes to CALL in \p Body.
 void check(const TestDevice &Device, const char *Language,
            const std::vector<Function> &Functions, std::size_t Width,
-           const std::string &Condition,
-           const std::function<bool(int32_t)> &Takes) {
+           const std::string &Body, const std::function<bool(int32_t)> &Takes) {
   SCOPED_TRACE(Language);
-  const cl::Program Program =
-      Device.build(kernelOf(Functions, Condition), Language);
+  const cl::Program Program = Device.build(kernelOf(Functions, Body), Language);
   cl::Kernel Kernel(Program, "call");
   std::mt19937 Random(1);
   for (const std::size_t Size : GroupSizes) {
@@ -222,22 +232,66 @@ TEST(Subgroups, EveryWorkItemOfAWarpTakesPart) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
   for (const char *Language : Languages)
-    check(Device, Language, OfSubgroups, Lanes, "", everyone);
+    check(Device, Language, OfSubgroups, Lanes, "CALL", everyone);
 }
 
 TEST(Subgroups, FunctionsOfActiveLanesLeaveTheOthersOut) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
   for (const char *Language : Languages)
-    check(Device, Language, OfActiveLanes, Lanes, "x & 1",
+    check(Device, Language, OfActiveLanes, Lanes, "if (x & 1) CALL",
           [](int32_t X) { return (X & 1) != 0; });
+}
+
+struct Pattern {
+  const char *Body;
+  bool (*Takes)(int32_t);
+};
+
+/// Basic blocks that work-items reach along several paths.
+const Pattern SharedBlocks[] = {
+    {"if ((x & 1) || *again > 50) CALL",
+     [](int32_t X) { return (X & 1) != 0 || X > 50; }},
+    {"if (x > 0 && *again < 60) side += *again; else CALL",
+     [](int32_t X) { return X <= 0 || X >= 60; }},
+    {"switch (x) { case 3: side += *again; break; case 7: side += *again;"
+     " break; case -11: break; default: CALL }",
+     [](int32_t X) { return X != 3 && X != 7 && X != -11; }},
+    {"switch (x & 3) { case 0: side += *again; case 1: CALL }",
+     [](int32_t X) { return (X & 3) < 2; }},
+    {"if (x > 40) goto LABEL; if (*again < 0) { if (*again > -50) goto LABEL; "
+     "goto not_LABEL; } if (x & 1) LABEL: CALL not_LABEL:;",
+     [](int32_t X) { return X > 40 || (X < 0 ? X > -50 : (X & 1) != 0); }},
+    // As a function that returns early, once it is inlined.
+    {"do { if (x > 20) { if (*again & 1) break; side += *again; } CALL } while "
+     "(0);",
+     [](int32_t X) { return X <= 20 || (X & 1) == 0; }},
+    // The label is reached from two loops, at different times.
+    {"for (int a = 0; a < 4; ++a) { for (int b = 0; b < 4; ++b) { "
+     "if (*again == a * 4 + b) goto LABEL; if (*again < b) break; } "
+     "if (*again == -a) goto LABEL; } goto not_LABEL; LABEL: CALL "
+     "not_LABEL:;",
+     [](int32_t X) { return X >= -3 && X < 16; }},
+    // In each of three rounds, of which the last one counts.
+    {"for (int a = 0; a < 3; ++a) { if (x & 2) { if (*again & 4) continue; } "
+     "CALL }",
+     [](int32_t X) { return (X & 2) == 0 || (X & 4) == 0; }},
+};
+
+TEST(Subgroups, FunctionsSeeAllLanesThatComeAlongDifferentPaths) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  for (const Pattern &P : SharedBlocks) {
+    SCOPED_TRACE(P.Body);
+    check(Device, "-cl-std=CL3.0", OfActiveLanes, Lanes, P.Body, P.Takes);
+  }
 }
 
 TEST(Subgroups, FunctionsOfGroupsGoThroughAllSubgroups) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
   check(Device, "-cl-std=CL3.0", OfGroups,
-        *std::max_element(std::begin(GroupSizes), std::end(GroupSizes)), "",
+        *std::max_element(std::begin(GroupSizes), std::end(GroupSizes)), "CALL",
         everyone);
 }
 
