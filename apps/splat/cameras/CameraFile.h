@@ -1,4 +1,4 @@
-/// Cameras from any file or folder that has some.
+/// Reads cameras from a file or folder of any supported format.
 #pragma once
 
 #include "capture/Capture.h"
@@ -10,27 +10,28 @@
 
 namespace vorion::splat {
 
-/// The cameras of a file, and what they were read from.
+/// The cameras of a file, and the files that they were read from.
 struct CameraFile {
   std::vector<Camera> Cameras;
   std::vector<std::string> Files;
 };
 
-/// Reads the cameras at \p Path, told by content:
-/// - a list is INRIA's cameras.json, an object with frames a file of
-///   transforms, one with camera_path or keyframes nerfstudio's camera path;
-/// - a folder is a capture (Capture.h), of which no picture is needed, or has a
-///   cameras.json, as INRIA's trainer leaves it.
-/// \p Of says which lenses those of a capture have; other files' are their own.
+/// Reads the cameras at \p Path, in the format that its content indicates:
+/// - a JSON list is INRIA's cameras.json; an object with frames is
+///   transforms.json; an object with camera_path or keyframes is nerfstudio's
+///   camera path;
+/// - a folder is a capture (Capture.h), which needs no pictures, or contains
+///   the cameras.json of INRIA's trainer. \p Of selects the lenses of a
+///   capture's cameras; other files define their own lenses.
 Expected<CameraFile> readCameraFile(const std::string &Path,
                                     LensOf Of = LensOf::Undistorted);
 
-/// The files that readCameraFile() reads at \p Path, or that lie under its
-/// views: of a capture also pictures, masks and points (captureFiles).
+/// The files that readCameraFile() reads at \p Path, and the files of its
+/// views: for a capture also pictures, masks and points (captureFiles).
 std::vector<std::string> cameraFiles(const std::string &Path);
 
-/// Of the files that \p Path's cameras are read from: of the file, or of the
-/// names and contents of several.
+/// Hash of the files from which \p Path's cameras are read: of the content of
+/// one file, or of the names and contents of several.
 Expected<std::string> hashCameraFile(const std::string &Path);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// A view of a scene that nobody gave cameras for.
+/// Automatic view of a scene without cameras.
 #pragma once
 
 #include "cameras/Vector.h"
@@ -9,24 +9,25 @@
 
 namespace vorion::splat {
 
-/// Where the detail of a scene is: strays and a far background count little.
+/// The region of a scene with most of its detail. Outliers and a distant
+/// background have little weight.
 struct SceneFocus {
   Vector Centre{};
-  double Radius = 1; ///< of a ball that holds most of the detail
+  double Radius = 1; ///< of a sphere that contains most of the detail
   Vector Up{};       ///< a unit vector
 };
 
-/// Finds it from the opacities, places and flat sides of \p S, which has at
-/// least one Gaussian. Unless \p Up is given, up is near -y, as in trainers'
-/// scenes, or near +z: where large flat Gaussians point, as those of floors do,
-/// and along which the scene is not high. If most of them lie above the rest,
-/// it is the other way round.
+/// Estimates it from opacities, positions and orientations of \p S, which has
+/// at least one Gaussian. Unless \p Up is given, up is near -y, as in scenes of
+/// trainers, or near +z: the normal of large flat Gaussians, such as those of
+/// floors, along which the extent of the scene is small. If most of them are
+/// above the other Gaussians, the direction is reversed.
 SceneFocus focusOf(const Scene &S, std::optional<Vector> Up = std::nullopt);
 
-/// The view, of those around the focus at several heights and distances, from
-/// which most of the detail is seen and fills the picture: called "found". All
-/// of the focus is beyond the depth \p Nearest: a small scene is seen from
-/// farther away, through a longer lens. The same bits for the same scene.
+/// Selects, of views around the focus at several heights and distances, the
+/// view in which most of the detail is visible and fills the picture. Its name
+/// is "found". The complete focus is beyond the depth \p Nearest: a small scene
+/// is viewed from farther away, with a longer focal length. Deterministic.
 Camera goodView(const Scene &S, const SceneFocus &F, int Width, int Height,
                 double Nearest);
 

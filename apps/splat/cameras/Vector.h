@@ -1,4 +1,4 @@
-/// Three doubles, for poses of cameras.
+/// 3D vectors of camera poses, in double precision.
 #pragma once
 
 #include <array>
@@ -26,17 +26,17 @@ inline Vector cross(const Vector &A, const Vector &B) {
           A[0] * B[1] - A[1] * B[0]};
 }
 inline double length(const Vector &A) { return std::sqrt(dot(A, A)); }
-/// \p A is not zero.
+/// Precondition: \p A is not zero.
 inline Vector unit(const Vector &A) { return (1 / length(A)) * A; }
 
-/// \p V turned about the unit vector \p Axis by an angle with this cosine and
+/// \p V rotated about the unit vector \p Axis by the angle with this cosine and
 /// sine.
 inline Vector turned(const Vector &V, const Vector &Axis, double Cos,
                      double Sin) {
   return Cos * V + Sin * cross(Axis, V) + (1 - Cos) * dot(Axis, V) * Axis;
 }
 
-/// Any unit vector at a right angle to \p A.
+/// A unit vector orthogonal to \p A.
 inline Vector acrossOf(const Vector &A) {
   std::size_t Least = 0;
   for (std::size_t I = 1; I < 3; ++I)

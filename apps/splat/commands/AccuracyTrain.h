@@ -8,12 +8,12 @@
 
 namespace vorion::splat {
 
-/// Declares --train, which excludes \p OfScenes, and what needs it; \p P must
-/// outlive the parsing.
+/// Declares --train, which excludes \p OfScenes, and the options that need it.
+/// \p P must outlive the parsing.
 void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
                      const std::vector<CLI::Option *> &OfScenes);
 
-/// Measures the points of \p P as \p O says, writes all of them to
+/// Runs the study \p P with the options \p O, writes its points to
 /// training.json and a page, and prints a table.
 Expected<Success> measureTraining(TrainSweepPlan P, const StudyOptions &O);
 

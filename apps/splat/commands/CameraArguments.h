@@ -1,4 +1,4 @@
-/// What subcommands that draw take about cameras.
+/// Camera options of the subcommands that render.
 #pragma once
 
 #include "cameras/Vector.h"
@@ -12,16 +12,18 @@
 namespace vorion::splat {
 
 struct CameraArguments {
-  std::string File;               ///< or a folder; empty: a view is found
-  std::vector<std::string> Views; ///< empty: the first, or all of a motion
-  int Orbit = 0, Frames = 0;      ///< views of a motion, 0 for none
-  std::string Size;               ///< WIDTHxHEIGHT; empty: the cameras', or
-                                  ///< DefaultSize
-  bool Distorted = false;         ///< through the photographs' lenses
-  std::string Up;                 ///< an axis, as -y; empty: by the cameras, or
-                                  ///< by the scene
+  std::string File;               ///< or a folder; empty: automatic view
+  std::vector<std::string> Views; ///< empty: the first, or all views of a
+                                  ///< motion
+  int Orbit = 0, Frames = 0;      ///< number of views of a motion, 0 for none
+  std::string Size;               ///< WIDTHxHEIGHT; empty: that of the cameras,
+                                  ///< or DefaultSize
+  bool Distorted = false;         ///< with the lens distortion of the
+                                  ///< photographs
+  std::string Up;                 ///< an axis such as -y; empty: estimated from
+                                  ///< cameras or scene
 
-  /// Whether one picture is asked for; "all" may be one too.
+  /// Whether one picture is requested; "all" may also be one picture.
   bool isOne() const {
     return Orbit == 0 && Frames == 0 &&
            (Views.empty() || (Views.size() == 1 && Views.front() != "all"));
@@ -30,22 +32,23 @@ struct CameraArguments {
 
 inline constexpr const char *DefaultSize = "640x360";
 
-/// Declares --cameras and --up, and of several pictures --size, --orbit and
-/// --frames; \p A must outlive the parsing. --view is the caller's.
+/// Declares --cameras and --up, and if \p Several also --size, --orbit and
+/// --frames. The caller declares --view. \p A must outlive the parsing.
 void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several);
 
-/// The cameras of \p A, of which only those that --view names. Without
-/// --cameras one is found that sees \p S well.
+/// The cameras of \p A that --view selects. Without --cameras, an automatic
+/// view of \p S.
 Expected<std::vector<Camera>> chooseCameras(const CameraArguments &A,
                                             const Scene &S);
 
-/// All cameras of the file, or those of the motion, or the one that is found;
-/// --view says where a motion starts, or which views it goes through.
+/// All cameras of the file or of the motion, or the automatic view. --view
+/// selects the start of a motion, or the views along it.
 Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
                                          const Scene &S);
 
-/// What is up in \p S, a unit vector: as --up says, else as \p Cameras have it
-/// if they are of a file, else by the scene's flat Gaussians.
+/// The up direction of \p S, a unit vector: that of --up; otherwise that of \p
+/// Cameras if they are from a file; otherwise estimated from the scene's flat
+/// Gaussians.
 Vector upOf(const CameraArguments &A, const std::vector<Camera> &Cameras,
             const Scene &S);
 

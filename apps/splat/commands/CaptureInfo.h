@@ -1,4 +1,4 @@
-/// What `splat info` says about a capture.
+/// `splat info` for captures, and options of all commands that read captures.
 #pragma once
 
 #include "capture/Capture.h"
@@ -10,22 +10,22 @@
 
 namespace vorion::splat {
 
-/// Reads the capture at \p Path, prints what is in it and, unless \p JsonFile
-/// is empty, writes the same for programs.
+/// Reads the capture at \p Path, prints a summary of it and, unless \p JsonFile
+/// is empty, writes it as JSON.
 Expected<Success> describeCapture(const std::string &Path,
                                   const std::string &JsonFile,
                                   bool AllowOutside);
 
-/// Declares --allow-outside, of every command that reads captures
-/// (CaptureOptions); \p Allow must outlive the parsing.
+/// Declares --allow-outside (CaptureOptions), for all commands that read
+/// captures; \p Allow must outlive the parsing.
 void addOutsideOption(CLI::App &App, bool &Allow);
 
-/// Declares --hold-out, of those that train and judge; \p Every must outlive
-/// the parsing.
+/// Declares --hold-out, for training and evaluation; \p Every must outlive the
+/// parsing.
 void addHoldOutOption(CLI::App &App, std::optional<unsigned> &Every);
 
-/// Declares --masks, of those that compare with photographs; \p Masks must
-/// outlive the parsing.
+/// Declares --masks, for comparisons with photographs; \p Masks must outlive
+/// the parsing.
 void addMasksOption(CLI::App &App, MaskSource &Masks);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// Options that choose one of an enumeration by name.
+/// Options whose value is the name of an enumerator.
 #pragma once
 
 #include "vorion/support/CommandLine.h"
@@ -37,15 +37,15 @@ void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
       ->check(isOneOf(std::move(Names)));
 }
 
-/// The same of all that there is.
+/// The same for all enumerators.
 template <typename Enum, std::size_t Count>
 void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
                const std::array<Enum, Count> &All, const std::string &Help) {
   addChoice(App, Flag, Value, std::vector<Enum>(All.begin(), All.end()), Help);
 }
 
-/// An option whose value is a number out of \p Choices; \p Value must outlive
-/// the parsing.
+/// An option whose value is one of the numbers \p Choices; \p Value must
+/// outlive the parsing.
 inline void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
                     const std::vector<unsigned> &Choices,
                     const std::string &Help) {

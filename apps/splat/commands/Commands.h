@@ -1,5 +1,5 @@
-/// The subcommands of `splat`: each declares its options and gives what runs
-/// it once they are parsed.
+/// The subcommands of `splat`. Each function declares the options of a
+/// subcommand and returns the function that executes it after parsing.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -10,7 +10,7 @@
 
 namespace vorion::splat {
 
-/// Takes what the command line says of the device for all subcommands.
+/// Executes a subcommand with the device options that all subcommands share.
 using Runner = std::function<Expected<Success>(const DeviceOptions &)>;
 
 Runner addRender(CLI::App &App);
@@ -26,10 +26,10 @@ Runner addTrain(CLI::App &App);
 Runner addEval(CLI::App &App);
 Runner addCompare(CLI::App &App);
 Runner addView(CLI::App &App);
-/// Runs again what made a report, and says whether it is the same.
+/// Repeats the command of a report, and compares the results.
 Runner addReplay(CLI::App &App);
-/// Looks at what programs need to run here; a fault is an Error (GuestFailed),
-/// given after all is said.
+/// Checks the requirements of programs on this host. A fault is an Error
+/// (GuestFailed), returned after all checks are printed.
 Runner addDoctor(CLI::App &App);
 
 } // namespace vorion::splat

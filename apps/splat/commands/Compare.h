@@ -1,5 +1,5 @@
-/// What `splat compare` does: every kind of comparison, over files alone, so
-/// that no OpenCL device is needed.
+/// The comparisons of `splat compare`. They read only files and need no OpenCL
+/// device.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -11,33 +11,33 @@
 namespace vorion::splat {
 
 struct CompareArguments {
-  std::string Reference, Picture; ///< what to expect, and what there is
-  std::string Mask, Json, Html;   ///< files; empty for none
+  std::string Reference, Picture; ///< expected and actual picture
+  std::string Mask, Json, Html;   ///< file names; empty for none
   bool Pairs = false;
   std::optional<double> MinDb;       ///< outside the mask
   std::optional<double> MinDbAll;    ///< over all pixels
-  std::optional<double> MaxDoubtful; ///< masked share, per cent
+  std::optional<double> MaxDoubtful; ///< masked pixels, per cent
   bool Times = false;
-  bool Across = false;          ///< of other machines or other work, too
-  std::optional<double> AtMost; ///< longer, per cent
+  bool Across = false;          ///< also of other machines or workloads
+  std::optional<double> AtMost; ///< maximum increase, per cent
 };
 
-/// What was compared, for reports: the file and its hash; null for no file.
+/// A compared file in reports: name and hash; null without a file.
 Expected<nlohmann::ordered_json> comparedFile(const std::string &File);
 
-/// Prints and, on request, writes the differences of two pictures. Figures
-/// out of the bounds that the arguments set are an Error (GuestFailed), given
-/// after the writing.
+/// Prints the differences of two pictures, and writes them if requested. A
+/// figure beyond the bounds in the arguments is an Error (GuestFailed),
+/// returned after writing.
 Expected<Success> comparePictures(const CompareArguments &A);
 
-/// Whether two files of `--dump-pairs` hold the same pairs in the same order;
-/// if not, an Error (GuestFailed) with the first place that differs, given
-/// after the report is written.
+/// Compares the pairs of two files of `--dump-pairs`, including their order. A
+/// difference is an Error (GuestFailed) with the first position that differs,
+/// returned after the report is written.
 Expected<Success> comparePairs(const CompareArguments &A);
 
-/// Prints and, on request, writes what changed from one time report to the
-/// other. Reports that do not compare are an Error; a time beyond the bound is
-/// one, too (GuestFailed), given after the writing.
+/// Prints the changes between two time reports, and writes them if requested.
+/// Reports that are not comparable are an Error. A time beyond the bound is an
+/// Error (GuestFailed), returned after writing.
 Expected<Success> compareTimes(const CompareArguments &A);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// What every subcommand that works on a device takes.
+/// Options of all subcommands that use a device.
 #pragma once
 
 #include "device/Launcher.h"
@@ -16,21 +16,20 @@ void addDeviceOption(CLI::App &App, std::string &Name);
 /// Declares --kernels; \p Folder must outlive the parsing.
 void addKernelsOption(CLI::App &App, std::string &Folder);
 
-/// Whether \p D can blend by \p Blending; an error is one of usage.
+/// Checks that \p D supports the path \p Blending; otherwise a usage error.
 Expected<Success> checkBlends(const Device &D, Path Blending);
 
-/// Opens the device that \p Name asks for; an error where it cannot blend by
-/// \p Blending.
+/// Opens the device \p Name; an error if it does not support the path \p
+/// Blending.
 Expected<Device> openDevice(const std::string &Name, Path Blending,
                             const DeviceOptions &Options);
 
-/// Turns the machine's clock on, at \p Mhz if they are given: else it stays
-/// what VORION_TIME says, or the machine's. \p By: the option that asks for it
-/// without a clock.
+/// Enables the clock, at \p Mhz if given, otherwise at the frequency of
+/// VORION_TIME or of the machine. \p By is the option that needs the clock.
 void turnClockOn(DeviceOptions &Options, std::optional<unsigned> Mhz,
                  const std::string &By);
 
-/// Shows what the compiler said of a program that failed to build.
+/// Prints the build log of a program that failed to compile.
 void showBuildLog(const Launcher &L);
 
 } // namespace vorion::splat

@@ -1,5 +1,4 @@
-/// What subcommands that say how long something takes also take, to say how
-/// much energy.
+/// Energy options of the subcommands that report simulated time.
 #pragma once
 
 #include "render/FrameEnergy.h"
@@ -15,24 +14,24 @@ struct EnergyArguments {
   std::string Technology; ///< a file; empty for the default
   std::optional<double> Volts;
 
-  /// Naming a technology or a voltage asks, too.
+  /// A technology or a voltage implies --energy.
   bool isWanted() const {
     return Energy || !Technology.empty() || Volts.has_value();
   }
 };
 
 /// Declares --energy, --technology and --voltage; \p A must outlive the
-/// parsing. \p What is what takes the energy.
+/// parsing. \p What names the consumer of the energy in the help.
 void addEnergyOptions(CLI::App &App, EnergyArguments &A,
                       const std::string &What);
 
-/// Reads the technology. Nothing if energies are not wanted; an error if the
-/// file is none, or has no voltage for the clock.
+/// Reads the technology. Empty if energy is not requested. An error if the file
+/// is malformed, or has no voltage for the clock.
 Expected<std::optional<EnergyRequest>>
 requestedEnergy(const EnergyArguments &A, std::optional<unsigned> ClockMhz);
 
-/// Has \p D end a run with its first kernel where \p Energy cannot say how much
-/// it takes, rather than after the last.
+/// Makes a run on \p D fail at its first kernel, instead of after its last, if
+/// its energy cannot be computed by \p Energy.
 void checkEnergyOf(Device &D, const std::optional<EnergyRequest> &Energy);
 
 } // namespace vorion::splat

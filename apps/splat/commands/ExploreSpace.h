@@ -1,4 +1,4 @@
-/// What `splat explore` refuses of a space before it measures anything.
+/// Checks of a space by `splat explore` before any measurement.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -10,12 +10,12 @@
 
 namespace vorion::splat {
 
-/// The options that say how work of the kind \p W is computed.
+/// The options that determine how work of the kind \p W is computed.
 std::set<std::string> computingOptions(Work W);
 
-/// That \p Base opens with each value of \p S alone, and that the options are
-/// of how what \p Does has is computed, with values that they take. \p Where
-/// has the space. This process must have no device yet.
+/// Checks that \p Base opens with each single change in \p S, that its options
+/// affect work of \p Does, and that their values are valid. \p Where names the
+/// space in messages. No device may be open in this process.
 Expected<Success> checkSpace(const Space &S, const Workload &Does,
                              const DeviceOptions &Base,
                              const std::string &Where);

@@ -1,5 +1,5 @@
-/// What `splat explore` tries machines on: a scene of the command line, or a
-/// workload's file.
+/// The workload of `splat explore`: a scene on the command line, or a workload
+/// file.
 #pragma once
 
 #include "commands/CameraArguments.h"
@@ -18,15 +18,16 @@ struct WorkloadArguments {
   CameraArguments Cameras;
   int SmallWidth = 480; ///< px
 
-  /// What the folder of the results is named after.
+  /// The file after which the folder of the results is named.
   const std::string &input() const { return File.empty() ? Scene.Path : File; }
 };
 
-/// Declares --workload and --small-width, and what a scene of the command line
-/// and one of a workload take. \p A must outlive the parsing.
+/// Declares --workload and --small-width, and the options of a scene. \p A must
+/// outlive the parsing.
 void addWorkloadOptions(CLI::App &App, WorkloadArguments &A);
 
-/// What \p A asks for; results go to \p Folder. There is a scene or a file.
+/// The workload of \p A, which has a scene or a file. Results are written to \p
+/// Folder.
 Expected<GivenWorkload> workloadOf(const WorkloadArguments &A,
                                    const std::string &Folder);
 

@@ -1,4 +1,4 @@
-/// `splat render --heat-map`: pictures of where the rasterizers' work is.
+/// `splat render --heat-map`: pictures of the rasterizers' work for each tile.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -14,20 +14,22 @@
 
 namespace vorion::splat {
 
-/// Of devices that are opened while it lives.
+/// Records the work of devices that are opened during the lifetime of the
+/// object.
 class HeatMapFiles {
 public:
-  /// What begins with \p Prefix: PREFIX.list.png and so on, PREFIX.json.
+  /// The output files with the prefix \p Prefix: PREFIX.list.png and so on,
+  /// PREFIX.json.
   static std::vector<NamedFile> outputs(const std::string &Prefix);
 
-  /// Asks for it in \p Options, which turns the machine's clock on. Errors: no
-  /// temporary folder. No files are written where \p Prefix is empty.
+  /// Requests it in \p Options, which enables the clock. Error: a temporary
+  /// folder cannot be created. If \p Prefix is empty, no files are written.
   static Expected<HeatMapFiles> begin(std::string Prefix,
                                       DeviceOptions &Options);
 
-  /// What the device drew. An error where it told of no tiles.
+  /// The tiles that the device drew. An error if it reported none.
   Expected<DrawnTiles> tiles() const;
-  /// Writes what the device drew of \p View; \p Report says what made it.
+  /// Writes the files for \p View; \p Report has the provenance.
   Expected<Success> write(const Camera &View,
                           nlohmann::ordered_json Report) const;
 
@@ -39,7 +41,7 @@ private:
 
   std::string Prefix;
   std::optional<TemporaryFolder> Folder; ///< none if the user named the file
-  std::string File;                      ///< what the device writes
+  std::string File;                      ///< written by the device
   std::string Region;                    ///< of VORION_REGION, empty for none
 };
 

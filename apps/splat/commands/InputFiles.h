@@ -1,4 +1,4 @@
-/// The files that a command reads, for claimOutputs(): no output may be one.
+/// The input files of a command, for claimOutputs(): no output may be an input.
 #pragma once
 
 #include "vorion/support/Outputs.h"
@@ -8,9 +8,9 @@
 
 namespace vorion::splat {
 
-/// Collects them by what they are called in messages. A scene, a capture or
-/// cameras may be many files, in folders, and all of them count. Empty paths
-/// are files that nobody named.
+/// Collects input files with their names in messages. A scene, a capture or
+/// cameras may consist of many files in folders, which are all added. Empty
+/// paths are ignored.
 class InputFiles {
 public:
   InputFiles &file(const std::string &Name, const std::string &Path);
@@ -18,7 +18,7 @@ public:
                     const std::string &Name = "the scene");
   InputFiles &capture(const std::string &Path);
   InputFiles &cameras(const std::string &Path);
-  /// Those of the environment's variables that watch runs.
+  /// The files of observers that environment variables request.
   InputFiles &watched();
 
   const std::vector<NamedFile> &named() const { return Named; }

@@ -1,4 +1,4 @@
-/// The options of outputs beside a picture (docs/judging.md).
+/// The options of additional outputs of a picture (docs/judging.md).
 #pragma once
 
 #include "render/Layers.h"
@@ -10,8 +10,8 @@ namespace vorion::splat {
 /// Declares them; \p F must outlive the parsing.
 void addLayerOptions(CLI::App &App, LayerFiles &F);
 
-/// Whether endings and options go together; an error is one of usage.
-/// \p IsOne: one picture is drawn.
+/// Checks that file extensions and options are consistent; otherwise a usage
+/// error. \p IsOne: one picture is rendered.
 Expected<Success> checkLayers(const LayerFiles &F, const RenderOptions &O,
                               bool IsOne);
 

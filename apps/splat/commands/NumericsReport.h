@@ -9,16 +9,16 @@
 
 namespace vorion::splat {
 
-/// Of devices that are opened while it lives. The platform makes it, which
-/// reports to a file.
+/// The report of devices that are opened during the lifetime of the object. The
+/// platform writes it to a file.
 class NumericsReport {
 public:
-  /// Adds it to \p Options, with \p Settings as VORION_NUMERICS has them.
-  /// Errors: no temporary folder.
+  /// Requests it in \p Options, with \p Settings in the syntax of
+  /// VORION_NUMERICS. Error: a temporary folder cannot be created.
   static Expected<NumericsReport> begin(const std::string &Settings,
                                         DeviceOptions &Options);
 
-  /// What has been found so far. Error: the device wrote nothing.
+  /// The findings so far. An error if the device wrote no report.
   Expected<std::string> text() const;
 
 private:

@@ -1,5 +1,5 @@
-/// That a file's ending is what is in it. Whether the file can be written is
-/// asked by claimOutputs() (vorion/support/Outputs.h).
+/// Checks of output file names. claimOutputs() (vorion/support/Outputs.h)
+/// checks whether a file can be written.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -10,23 +10,24 @@
 
 namespace vorion::splat {
 
-/// That \p File, the value of \p Option, has one of \p Endings, as ".ply". An
-/// Error of usage names them. No name at all is fine, and so are standard
-/// output and whatever is there and no regular file.
+/// Checks that \p File, the value of \p Option, has one of the extensions \p
+/// Endings, such as ".ply"; otherwise a usage error, which lists them. An empty
+/// name, standard output, and existing files that are not regular are accepted.
 Expected<Success> checkEnding(std::string_view Option, const std::string &File,
                               const std::vector<std::string_view> &Endings);
 
-/// Gives \p File, the value of \p Option, a name if the user gave none: that of
-/// \p Input, a file or a folder, in the current folder and with \p Ending.
-/// Reports say it as if the user had.
+/// Sets \p File, the value of \p Option, if the user did not: to the name of \p
+/// Input, a file or a folder, in the current folder and with the extension \p
+/// Ending. Reports list it as if the user had set it.
 void nameOutput(const char *Option, std::string &File, const std::string &Input,
                 std::string_view Ending);
 
-/// That the ending of \p File, the value of --json, does not promise another
-/// kind of file.
+/// Checks that the extension of \p File, the value of --json, is not that of
+/// another format.
 Expected<Success> checkJsonName(const std::string &File);
 
-/// That \p Prefix, with which the names of several files begin, is none itself.
+/// Checks that \p Prefix, the prefix of several file names, is not itself the
+/// name of a file.
 Expected<Success> checkPrefix(std::string_view Option,
                               const std::string &Prefix);
 

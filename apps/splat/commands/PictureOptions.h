@@ -1,5 +1,5 @@
-/// The options that say what a picture is, and how its gradients are taken:
-/// one meaning in every subcommand that draws.
+/// The options that define a picture and the computation of its gradients, with
+/// the same meaning in all subcommands that render.
 #pragma once
 
 #include "effects/EffectPlan.h"
@@ -16,32 +16,33 @@
 
 namespace vorion::splat {
 
-/// Rules, support, path, background and cut-off. \p O must outlive the
+/// Declares rules, support, path, background and cut-off. \p O must outlive the
 /// parsing, here and below.
 void addPictureOptions(CLI::App &App, RenderOptions &O);
 
-/// Whether the values of these go together; an error is one of usage.
+/// Checks that these values are consistent; otherwise a usage error.
 Expected<Success> checkPictureOptions(const RenderOptions &O);
 
-/// All that says how a view is drawn; the texts are for parseDrawTexts().
+/// All options that determine how a view is rendered; parseDrawTexts() parses
+/// the strings.
 struct DrawArguments {
   RenderOptions Options;
   std::string PixelUnit = "off", Effects = "auto";
   EffectRequest Request;
 };
 
-/// Declares the picture's options, what is given up for time or area, and the
-/// paths' own; with \p Effects also --effects.
+/// Declares the options of the picture, of approximations, and of the paths;
+/// with \p Effects also --effects.
 void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects = true);
 
-/// Reads \p A's texts; an error is one of usage.
+/// Parses the strings of \p A; an error is a usage error.
 Expected<Success> parseDrawTexts(DrawArguments &A);
 
-/// Whether all values go together; an error is one of usage.
+/// Checks that all values are consistent; otherwise a usage error.
 Expected<Success> checkDrawOptions(const RenderOptions &O);
 
-/// Says on the terminal which effects \p P leaves out that the picture needs;
-/// \p Asked is the text of --effects.
+/// Prints a warning with the effects that the picture needs and \p P omits; \p
+/// Asked is the value of --effects.
 void warnOfMissing(const EffectPlan &P, const std::string &Asked);
 
 void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
@@ -53,36 +54,37 @@ void addProjectionOption(CLI::App &App, Spread &Through);
 
 void addPathOption(CLI::App &App, Path &Blending, const std::string &Help);
 
-/// Tile and group of the cores' path.
+/// Declares tile and group of the path `simt`.
 void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
                     const std::vector<unsigned> &Tiles);
-/// What the tile may be where gradients are taken back: the cores keep one in
-/// local memory.
+/// The tile sizes of the backward pass: the cores keep a tile in local memory.
 inline const std::vector<unsigned> SimtTilesBack{8, 16};
 
-/// Whether tile and group fit \p Blending; an error is one of usage.
+/// Checks tile and group for the path \p Blending; an error is a usage error.
 Expected<Success> checkSimtOptions(Path Blending, unsigned SimtTile,
                                    unsigned SimtGroup);
 
-/// What the rasterizer's backward mode computes with.
+/// Declares the options of the rasterizer's backward mode.
 void addBackwardOptions(CLI::App &App, BackwardOptions &B);
 
-/// Whether the values fit \p Blending; an error is one of usage.
+/// Checks the values for the path \p Blending; an error is a usage error.
 Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
 
-/// All that says how one view's gradients are taken; \p O is for training then.
+/// Declares all options of the gradients of a view; \p O is then set for
+/// training.
 void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B);
 
-/// Whether \p Option, which needs the pixels' lists, goes with \p O; an error
-/// is one of usage.
+/// Checks that \p Option, which needs pixel lists, is compatible with \p O;
+/// otherwise a usage error.
 Expected<Success> checkPixelLists(const RenderOptions &O,
                                   std::string_view Option);
 
-/// Whether all values go together; an error is one of usage.
+/// Checks that all values are consistent; otherwise a usage error.
 Expected<Success> checkGradientOptions(const RenderOptions &O,
                                        const BackwardOptions &B);
 
-/// These as a report says them, after a comma; empty where the cores go back.
+/// The options as text of a report, after a comma; empty if the cores run the
+/// backward pass.
 std::string toString(const BackwardOptions &B, Path Blending);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// What a person sees while a device works.
+/// Progress messages on the terminal.
 #pragma once
 
 #include <cstddef>
@@ -7,16 +7,16 @@
 
 namespace vorion::splat {
 
-/// From now on nothing is said of progress.
+/// Disables progress messages.
 void hideProgress();
 bool isProgressHidden();
 
-/// A status line (StatusLine.h) that says what is going on.
+/// A status line (StatusLine.h) with the current activity.
 std::function<void(std::string_view)> progress();
 
-/// The same of a run that draws \p Views, with a bar of those that are drawn
-/// and the time that is left; elsewhere a line now and then. It is told the
-/// stages of each view.
+/// The same for a run that renders \p Views, with a progress bar and the
+/// remaining time; without a terminal, an occasional line. It must be called
+/// with each stage of each view.
 std::function<void(std::string_view)> progressOf(std::size_t Views);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// Whether two reports say the same of a result.
+/// Comparison of two reports of a result.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ struct ValueDifference {
 
 struct ReportDifference {
   std::size_t Compared = 0, Differing = 0;
-  std::vector<ValueDifference> First; ///< the first few that differ
+  std::vector<ValueDifference> First; ///< the first few differences
 };
 
-/// In what \p Is differs from \p Was. Times of this computer, the program, and
-/// the names of files that were written are no part of a result.
+/// The differences of \p Is from \p Was, except host times, the program, and
+/// the names of output files.
 ReportDifference differenceOf(const nlohmann::ordered_json &Was,
                               const nlohmann::ordered_json &Is);
 

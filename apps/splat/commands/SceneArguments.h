@@ -1,4 +1,4 @@
-/// What every subcommand that reads a scene takes.
+/// Options of all subcommands that read a scene.
 #pragma once
 
 #include "scene/SceneFile.h"
@@ -12,23 +12,21 @@ namespace vorion::splat {
 
 struct SceneArguments {
   std::string Path;
-  std::string Axes; ///< FROM:TO; empty: as the file has them
+  std::string Axes; ///< FROM:TO; empty: those of the file
   ReadOptions Options;
 };
 
-/// Declares the scene and the options about reading it; \p A must outlive the
-/// parsing.
+/// Declares the scene and its options; \p A must outlive the parsing.
 void addSceneOptions(CLI::App &App, SceneArguments &A);
 
-/// Reads the scene, in the axes that were asked for; says on the terminal what
-/// was left out.
-/// With \p Meanwhile, another thread reads while this one does that. It must
-/// print nothing. It may change the environment, which the reader never looks
-/// at.
+/// Reads the scene in the requested axes, and prints what was skipped. If \p
+/// Meanwhile is given, another thread reads the scene while this thread
+/// executes \p Meanwhile. \p Meanwhile must not print. It may change the
+/// environment, which the reader does not use.
 Expected<SceneFile> loadScene(const SceneArguments &A,
                               const std::function<void()> &Meanwhile = {});
 
-/// The options of \p A as words of a command line, without the scene.
+/// The options of \p A as command-line arguments, without the scene.
 std::vector<std::string> wordsOf(const SceneArguments &A);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// What `splat convert` changes in a scene before it writes it.
+/// Changes that `splat convert` applies to a scene.
 #pragma once
 
 #include "scene/Scene.h"
@@ -12,7 +12,7 @@
 namespace vorion::splat {
 
 struct SceneEdits {
-  std::vector<double> Translate, Rotate; ///< 3 each, or none
+  std::vector<double> Translate, Rotate; ///< 3 numbers each, or empty
   std::optional<double> Scale;
   std::vector<double> Box;    ///< x0, y0, z0, x1, y1, z1
   std::vector<double> Sphere; ///< x, y, z, radius
@@ -24,21 +24,21 @@ struct SceneEdits {
 /// Declares the options; \p E must outlive the parsing.
 void addEditOptions(CLI::App &App, SceneEdits &E);
 
-/// What was left out.
+/// Gaussians or data that were removed.
 struct LeftOut {
-  std::string Text;          ///< for people
+  std::string Text;          ///< for the terminal
   std::string Rule;          ///< "faint", "box", "sphere", "harmonics"
-  std::size_t Gaussians = 0; ///< of harmonics none
+  std::size_t Gaussians = 0; ///< 0 for "harmonics"
 };
 
 struct SceneChanges {
   std::vector<LeftOut> Left;
-  /// Gaussians in another place than before, where the order was asked for.
+  /// Number of Gaussians with another index than before, if reordered.
   std::optional<std::size_t> Reordered;
 };
 
-/// Moves \p S, then leaves out what is too faint and what is not inside, then
-/// sets the degree, then orders what is left. An Error if nothing is left.
+/// Transforms \p S, removes faint Gaussians and those outside box and sphere,
+/// sets the SH degree, and reorders the rest. An Error if no Gaussian remains.
 Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E);
 
 } // namespace vorion::splat

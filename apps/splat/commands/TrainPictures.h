@@ -1,5 +1,5 @@
-/// What `splat train` writes beside the scene: the cameras, and on request the
-/// held-out pictures beside their photographs.
+/// Outputs of `splat train` in addition to the scene: the cameras, and if
+/// requested the held-out pictures with their photographs.
 #pragma once
 
 #include "train/run/Training.h"
@@ -12,19 +12,19 @@
 namespace vorion::splat {
 
 struct TrainPictures {
-  std::string Html, Pictures; ///< file, and what names begin with
+  std::string Html, Pictures; ///< file name, and prefix of file names
 
   bool any() const { return !Html.empty() || !Pictures.empty(); }
 };
 
-/// Where the cameras of the scene in \p Output go: a file beside it, of its
-/// name.
+/// The name of the camera file for the scene in \p Output: in the same folder,
+/// with the same stem.
 std::string camerasFor(const std::string &Output);
 
 /// Declares the options; \p P must outlive the parsing.
 void addTrainPictures(CLI::App &App, TrainPictures &P);
 
-/// Whether the files' names promise what is in them.
+/// Checks the file extensions.
 Expected<Success> checkTrainPictures(const TrainPictures &P);
 
 /// Writes them for the scene in \p Output.

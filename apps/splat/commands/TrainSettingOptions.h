@@ -1,4 +1,4 @@
-/// The options of `splat train` that set one of its settings.
+/// The options of `splat train` that override a setting.
 #pragma once
 
 #include "train/settings/SettingsTable.h"
@@ -10,15 +10,16 @@
 
 namespace vorion::splat {
 
-/// What was given on the command line.
+/// The values on the command line.
 struct SettingOptions {
   std::string Preset;
-  std::string Method; ///< a name, or empty
+  std::string Method; ///< name of a method, or empty
   bool AbsoluteGradient = false;
   std::vector<std::pair<const SettingField *, double>> Values;
 
-  /// The settings: what was given over the preset. \p Own have the options
-  /// that the table does not make; they stay where \p App was given them.
+  /// The preset, overridden by the values on the command line. \p Own has the
+  /// values of the options that are not in the table, which take precedence if
+  /// \p App has them.
   Expected<TrainSettings> settings(const CLI::App &App,
                                    const TrainSettings &Own) const;
 };

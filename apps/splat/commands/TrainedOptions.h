@@ -1,5 +1,5 @@
-/// The options of `splat train` that say what is trained and how it is
-/// computed: all but where a run is kept and what is told of it.
+/// The options of `splat train` that determine the result: all except its
+/// outputs and reports.
 #pragma once
 
 #include "commands/TrainSettingOptions.h"
@@ -14,17 +14,19 @@ struct TrainedArguments {
   SettingOptions Settings;
 };
 
-/// Declares the capture, its pictures, where a run begins, its settings and
-/// rules. \p A must outlive the parsing, here and below.
+/// Declares the capture, its pictures, the initial scene, settings and rules.
+/// \p A must outlive the parsing, here and below.
 void addTrainedOptions(CLI::App &App, TrainedArguments &A);
 
-/// Declares what computes an iteration: the path, and its units and sums.
+/// Declares the path of an iteration, and its units and sums.
 void addTrainPathOptions(CLI::App &App, TrainRequest &R);
 
-/// Completes \p A, which \p App has parsed, with what follows from its options.
+/// Sets the members of \p A that follow from the options that \p App has
+/// parsed.
 Expected<Success> completeTrained(const CLI::App &App, TrainedArguments &A);
 
-/// Whether the values of these options go together; an error is one of usage.
+/// Checks that the values of these options are consistent; otherwise a usage
+/// error.
 Expected<Success> checkTrained(const TrainRequest &R);
 
 } // namespace vorion::splat

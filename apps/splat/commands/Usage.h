@@ -8,7 +8,7 @@
 
 namespace vorion::splat {
 
-/// What is wrong with options; the tool ends as its help says of usage.
+/// An error of the command line, with the exit code for usage errors.
 inline Error usage(std::string What) {
   return {"", std::move(What), ExitCode::Usage};
 }

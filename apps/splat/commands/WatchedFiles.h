@@ -1,4 +1,4 @@
-/// The files of the environment's variables that watch runs
+/// The files of observers that environment variables request
 /// (docs/debugging.md).
 #pragma once
 
@@ -8,9 +8,9 @@
 
 namespace vorion::splat {
 
-/// Whatever a variable may name: no output of splat may be one of them. For
-/// claimOutputs(), among the inputs: the platform looks whether it can write
-/// them.
+/// All files that variables name, to be passed to claimOutputs() as inputs, so
+/// that no output of splat is one of them. The platform checks whether they are
+/// writable.
 std::vector<NamedFile> watchedFiles();
 
 } // namespace vorion::splat

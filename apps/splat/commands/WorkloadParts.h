@@ -1,4 +1,4 @@
-/// A workload in the making, and its scenes.
+/// Construction of a workload, and its scenes.
 #pragma once
 
 #include "commands/CameraArguments.h"
@@ -12,35 +12,35 @@
 
 namespace vorion::splat {
 
-/// Views that tasks read from a file.
+/// A file of views that tasks read.
 struct ViewFile {
   std::string Path;
   std::vector<Camera> Views;
-  bool IsSmall = false; ///< of small views
+  bool IsSmall = false; ///< whether it has small views
 };
 
-/// A workload, and what is to be written before anything is measured.
+/// A workload, and the files to be written before measurements.
 struct GivenWorkload {
-  std::string Folder;   ///< for that and the results
-  int SmallWidth = 480; ///< of small views at most, px
+  std::string Folder;   ///< for these files and the results
+  int SmallWidth = 480; ///< maximum width of small views, px
   Workload Does;
   std::vector<ViewFile> ViewFiles;
 };
 
-/// What a part is called, and how much it counts.
+/// Name and weight of a part.
 struct PartHead {
-  std::string Name; ///< empty for the scene of a command line
+  std::string Name; ///< empty for the scene on the command line
   double Weight = 1;
 };
 
-/// Adds a scene; \p Where has its views.
+/// Adds a scene; \p Where names the source of its views.
 Expected<Success> addScene(GivenWorkload &To, const PartHead &Head,
                            const SceneArguments &Scene,
                            const CameraArguments &Cameras,
                            const std::string &Where);
 
-/// Has tasks measured once that are small already. Where all are, there are no
-/// small ones: then all machines are judged whole.
+/// Merges small and full-size tasks that are equal. If all are equal, there are
+/// no small tasks, and all machines are compared at full size.
 void completeWorkload(GivenWorkload &W);
 
 } // namespace vorion::splat

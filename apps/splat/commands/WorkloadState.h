@@ -1,4 +1,4 @@
-/// The states of training of a workload.
+/// Training states of a workload.
 #pragma once
 
 #include "commands/WorkloadParts.h"
@@ -9,17 +9,17 @@
 
 namespace vorion::splat {
 
-/// A state of training as a workload says it.
+/// A training state of a workload.
 struct GivenState {
-  TrainRequest Request; ///< with the iterations that are timed
-  /// What says the same to `splat train`, but for iterations and the pictures'
-  /// size.
+  TrainRequest Request; ///< with the number of timed iterations
+  /// The equivalent arguments of `splat train`, except iterations and
+  /// downsampling.
   std::vector<std::string> Words;
-  std::string Options;    ///< those that name no file
-  bool HasDegree = false; ///< else it is that of the checkpoint
+  std::string Options;    ///< options that do not name files
+  bool HasDegree = false; ///< otherwise the degree is that of the checkpoint
 };
 
-/// Adds a state.
+/// Adds a training state.
 Expected<Success> addState(GivenWorkload &To, const PartHead &Head,
                            GivenState State);
 

@@ -1,4 +1,4 @@
-/// What `splat doctor` says.
+/// The results of `splat doctor`.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@ namespace vorion::splat {
 
 enum class DiagnosisState {
   Well,
-  Note, ///< changes what programs do, or how fast; nothing has to be mended
+  Note, ///< affects behaviour or speed; nothing to fix
   Fault,
 };
 
 /// The state's name in tables and JSON.
 const char *name(DiagnosisState State);
 
-/// One thing that was looked at.
+/// The result of one check.
 struct Diagnosis {
   DiagnosisState State = DiagnosisState::Well;
   std::string Subject; ///< "device"
-  std::string Text;    ///< what is so: a sentence without its full stop
-  std::string Fix;     ///< what to do about it; of a fault never empty
+  std::string Text;    ///< the finding: a sentence without its period
+  std::string Fix;     ///< how to fix it; never empty for a fault
 };
 
 using Diagnoses = std::vector<Diagnosis>;

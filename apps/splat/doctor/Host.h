@@ -1,4 +1,4 @@
-/// What the host must have: room, memory, vectors.
+/// Checks of the host: disk space, memory, vector extensions.
 #pragma once
 
 #include "doctor/Diagnosis.h"
@@ -9,22 +9,22 @@
 
 namespace vorion::splat {
 
-/// \p Folder and the bytes that are free on its disk.
+/// The free space on the disk of \p Folder.
 Diagnosis examineDisk(const std::string &Folder, uint64_t FreeBytes);
-/// The same for the disk that \p Folder is on now.
+/// The same, with the current free space.
 Diagnosis examineDisk(const std::string &Folder);
 
-/// The bytes of main memory that programs can still get.
+/// The available main memory.
 Diagnosis examineMemory(uint64_t AvailableBytes);
-/// The same for this host now, as the text of /proc/meminfo has it.
+/// The same, with the value in /proc/meminfo.
 Diagnosis examineMemory();
 
-/// The widest vectors of this processor that the simulator uses.
+/// The widest vector extension that the simulator uses on this processor.
 Diagnosis examineVectors();
 
-/// The cache of compiled kernels, and the folders that were passed over for it.
+/// The cache of compiled kernels, and the folders that were rejected for it.
 Diagnoses examineCache(const KernelCacheFolder &Cache);
-/// \p Folder, which root has filled for all users, if it is there.
+/// The system-wide cache \p Folder, filled by root, if it exists.
 Diagnosis examineSystemCache(const std::string &Folder);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// Whether OpenCL programs find the device, and whether it works.
+/// Checks whether OpenCL programs find the device, and whether it works.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -9,23 +9,23 @@
 
 namespace vorion::splat {
 
-/// The libraries of OpenCL platforms that the loader is told of in \p Vendors,
-/// a folder of files *.icd, one such file, or a library itself.
+/// The OpenCL platform libraries that the ICD loader finds: listed in a folder
+/// of *.icd files, in one such file, or named directly.
 struct Vendors {
   Diagnosis Found;
   std::vector<std::string> Libraries;
 };
 Vendors examineVendors(const std::string &Place);
-/// Where the loader looks: OCL_ICD_VENDORS, or the system's folder.
+/// The search path of the loader: OCL_ICD_VENDORS, or the system's folder.
 std::string vendorsPlace();
 
-/// Whether the compiler is where the platform looks for it: below \p Root,
-/// or, if that is empty, in the folders above one of \p Libraries.
+/// Checks whether the platform finds the compiler: below \p Root or, if that is
+/// empty, relative to one of \p Libraries.
 Diagnosis examineTools(const std::string &Root,
                        const std::vector<std::string> &Libraries);
 
-/// Faults of \p Libraries that end a program which looks for their devices,
-/// each tried in a process of its own.
+/// Faults of \p Libraries that terminate a program which queries their devices.
+/// Each is checked in a separate process.
 Diagnoses examineLibraries(const std::vector<std::string> &Libraries);
 
 /// Opens the device and runs a kernel on it.

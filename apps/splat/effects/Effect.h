@@ -1,5 +1,5 @@
-/// One thing that a picture may need beyond the bare pipeline: how it is told
-/// that it is needed, and what it adds.
+/// An optional part of the pipeline: the condition under which a picture needs
+/// it, and what it adds.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -14,55 +14,56 @@
 namespace vorion::splat {
 
 enum class EffectKind {
-  Scene,      ///< from data; on or off where it is not needed, same bits
-  Machine,    ///< changes time, and at most rounding within its bound
-  Observation ///< by option only; changes nothing
+  Scene,      ///< decided by data; if not needed, it does not change any bit
+  Machine,    ///< changes time, and at most rounding within a bound
+  Observation ///< enabled by an option; changes nothing
 };
 
 std::string_view name(EffectKind K);
 
-/// Whether an effect is needed, and the figure that decided.
+/// Whether an effect is needed, and the deciding figure.
 struct Finding {
   bool Needed = false;
   std::string Figure;
-  /// False where the options rule it out: it is then not even done unneeded.
+  /// False if the options exclude it: it is then not done even with `all`.
   bool Applies = true;
 };
 
-/// What detection looks at.
+/// The inputs of detection.
 struct EffectInputs {
   const Scene &Gaussians;
   const RenderOptions &Options;
   const ViewFacts &Facts;
   bool KeepPairs = false;     ///< --dump-pairs
   bool Depth = false;         ///< --depth
-  DeviceOptions Machine = {}; ///< what the device is opened with
+  DeviceOptions Machine = {}; ///< options of the device
   bool Normals = false;       ///< --normals
   bool Lists = false;         ///< --contributors, --depth-as median
-  std::size_t Views = 1;      ///< pictures that are drawn of the scene at once
+  std::size_t Views = 1;      ///< number of views of the same run
 };
 
-/// A record of the registry; each is defined in a file of its own.
+/// A record of the registry, defined in its own file.
 struct Effect {
-  /// As --effects and reports have it.
+  /// The name in --effects and reports.
   std::string_view Name;
   EffectKind Kind;
-  /// What it is and what it adds: code, unit, model.
+  /// Description: the code, unit or model that it adds.
   std::string_view What;
-  /// The choice of its code in the kernels (device/Program.h, EffectSwitch);
-  /// empty where it has no code of its own.
+  /// The macro that selects its code in the kernels (device/Program.h,
+  /// EffectSwitch); empty if it has no code.
   std::string_view Macro = ""; // NOLINT(readability-redundant-string-init)
   Finding (*Detect)(const EffectInputs &) = nullptr;
-  /// In place of that: the lens that a camera has which needs it.
+  /// Alternative to Detect: the lens whose cameras need it.
   const LensModel *Lens = nullptr;
-  /// The effect that encloses its code, which is done where this one is; later
+  /// The effect that encloses its code, and is done if this one is. It is later
   /// in the registry.
   const Effect *Within = nullptr;
-  /// Done where it is not needed, it changes no bit. What is not neutral is
-  /// told by an option, and compiled in unneeded only behind its flag.
+  /// It changes no bit if it is done without need. An effect that is not
+  /// neutral is decided by an option; without need it is compiled only behind
+  /// its flag.
   bool Neutral = true;
-  /// The camera or an option decides, in every mode: its code is of this
-  /// picture's programs alone, and never behind a flag.
+  /// Camera or option decide in every mode: its code is only in the programs of
+  /// this picture, and never behind a flag.
   bool ByCamera = false;
 
   Finding detect(const EffectInputs &In) const {

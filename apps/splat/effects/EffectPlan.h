@@ -1,4 +1,4 @@
-/// Which effects a picture gets, and in which form.
+/// The effects of a picture, and the form of their code.
 #pragma once
 
 #include "device/Program.h"
@@ -14,8 +14,8 @@ namespace vorion::splat {
 /// The code of an effect in the kernels.
 enum class EffectCode {
   Absent,   ///< not in the program
-  Compiled, ///< in the program, always done
-  Flagged   ///< in the program, done where its bit of `effects` is set
+  Compiled, ///< in the program, unconditional
+  Flagged   ///< in the program, done if its bit of `effects` is set
 };
 
 std::string_view name(EffectCode C);
@@ -24,37 +24,37 @@ struct EffectDecision {
   const Effect *Subject = nullptr;
   Finding Detected;
   EffectCode Code = EffectCode::Absent;
-  /// Whether it is done: compiled in, or flagged with its bit set. For an
-  /// effect without code: whether it is on.
+  /// Whether it is done: compiled in, or flagged with its bit set; for an
+  /// effect without code, whether it is on.
   bool Done = false;
 };
 
-/// What --effects asks for.
+/// The value of --effects.
 struct EffectRequest {
   enum class Mode {
-    Auto,  ///< what is needed, and no code of anything else
-    All,   ///< everything compiled in
-    Flags, ///< everything compiled in behind run-time flags
-    List   ///< of those decided by data: these and no others
+    Auto,  ///< only the needed effects
+    All,   ///< all effects compiled in
+    Flags, ///< all effects behind run-time flags
+    List   ///< of the effects decided by data, only these
   };
   Mode Selection = Mode::Auto;
   std::vector<const Effect *> List; ///< for Mode::List
-  /// Compiled in if false, left out if true, whatever Selection says; for
-  /// measuring.
+  /// This effect is inverted: compiled in if it would be absent, and vice
+  /// versa; for measurements.
   const Effect *Toggled = nullptr;
 };
 
 std::string_view name(EffectRequest::Mode M);
 
-/// What the text of a request may be or list.
+/// The valid words of a request.
 std::vector<std::string> effectChoices();
 
-/// Reads "auto", "all", "flags" or names of effects joined by commas; of an
+/// Parses "auto", "all", "flags" or a comma-separated list of effects. For an
 /// effect that an option decides, the error names the option.
 Expected<EffectRequest> parseEffectRequest(const std::string &Text);
 
-/// Compiles the code of \p E into \p P, a structure `Program` of
-/// kernel_headers.py that takes it.
+/// Selects the code of \p E in \p P, a structure `Program` of kernel_headers.py
+/// that has this choice.
 template <typename Program> void compile(Program &P, const Effect &E) {
   P.forEachEffect([&](std::string_view Macro, auto &Choice) {
     if (Macro == E.Macro)
@@ -66,9 +66,8 @@ class EffectPlan {
 public:
   EffectPlan() = default;
   EffectPlan(const EffectRequest &R, const EffectInputs &In);
-  /// For scenes that are not known yet: harmonics up to \p ShDegree and all
-  /// that data could call for; the rest as \p O has it.
-  /// and, of the view, \p F.
+  /// The plan for an unknown scene: harmonics up to \p ShDegree and all effects
+  /// that data may need; the others follow from \p O and the view's \p F.
   static EffectPlan forAnyScene(int ShDegree, const RenderOptions &O,
                                 const ViewFacts &F = {});
 
@@ -79,10 +78,10 @@ public:
     return of(E).Code != EffectCode::Absent;
   }
 
-  /// The code of the effect with the macro \p Macro; of one by the camera only
-  /// where it is on.
+  /// The code of the effect with the macro \p Macro; empty for an effect
+  /// decided by the camera that is off.
   std::optional<EffectSwitch> choiceOf(std::string_view Macro) const;
-  /// Makes the choices of effects that \p P takes, a structure `Program` of
+  /// Sets the effect choices of \p P, a structure `Program` of
   /// kernel_headers.py.
   template <typename Program> void choose(Program &P) const {
     const auto Set = [&](std::string_view Macro, auto &Choice) {
@@ -91,11 +90,10 @@ public:
     if constexpr (requires { P.forEachEffect(Set); })
       P.forEachEffect(Set);
   }
-  /// The bits of the effects that are done, which kernels get as `effects`.
+  /// The bits of the effects that are done, passed to kernels as `effects`.
   uint32_t flags() const;
 
-  /// Effects that are needed but left out, as a list can ask: the picture
-  /// differs.
+  /// Effects that are needed but omitted by a list, which changes the picture.
   std::vector<const Effect *> missing() const;
 
 private:

@@ -1,4 +1,4 @@
-/// All effects, in the order in which they are decided and explained.
+/// All effects, in the order of decisions and explanations.
 #pragma once
 
 #include "effects/Effect.h"
@@ -50,10 +50,10 @@ std::span<const Effect *const> all();
 /// The effect of that name, or null.
 const Effect *find(std::string_view Name);
 
-/// Those of cameras that are no pinholes, one for each model, behind
+/// The effects of camera models except pinholes, one for each model, after
 /// Background.
 std::span<const Effect> ofLenses();
-/// That of a camera of model \p M, or null for a pinhole.
+/// The effect of camera model \p M, or null for a pinhole.
 const Effect *lensOf(const LensModel &M);
 
 } // namespace vorion::splat::effects

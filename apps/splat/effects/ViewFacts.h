@@ -1,4 +1,4 @@
-/// Figures about a scene as one camera sees it, by which effects are decided.
+/// Properties of a scene in a view, by which effects are decided.
 #pragma once
 
 #include "picture/Layout.h"
@@ -10,50 +10,50 @@
 
 namespace vorion::splat {
 
-/// From the stored parameters, in double precision. Bounds allow for what the
-/// kernels round, so that a figure may say "needed" too often, never too
-/// rarely.
+/// Computed from the stored parameters in double precision. Bounds include the
+/// rounding errors of the kernels, so that effects may be enabled without need,
+/// but are never missing.
 struct ViewFacts {
-  /// The smallest depth of a mean along the camera's axis, and how far from it
-  /// the kernels' own may be.
+  /// The smallest depth of a mean along the camera's axis, and a bound of its
+  /// error in the kernels.
   double NearestDepth = 0, DepthSlack = 0;
-  /// Gaussians whose x/z or y/z may lie beyond the Jacobian's limits, among
-  /// those in front of \c NearLimit.
+  /// Number of Gaussians beyond \c NearLimit whose x/z or y/z may exceed the
+  /// limits of the Jacobian.
   std::size_t BeyondField = 0;
-  /// Means in front of the camera and within the picture, by its focal lengths
-  /// alone (all in front where slopes have no limits), and how many of them the
-  /// near plane takes away.
+  /// Number of means in front of the camera and in the picture, by its focal
+  /// lengths only (all in front if slopes have no limits), and number of these
+  /// that the near plane culls.
   std::size_t InView = 0, BeforeNear = 0;
-  /// Of a mean's coordinates and the camera's, the largest magnitude.
+  /// The largest magnitude of a coordinate of a mean or the camera.
   double Reach = 0;
-  /// \name Of the camera, and of several the largest
+  /// \name Properties of the camera; the largest of several cameras
   /// @{
   bool IsCrop = false;    ///< the principal point is outside the picture
-  double FocalLength = 0; ///< px; of parallel rays, px a unit
-  unsigned Side = 0;      ///< of the picture, px
+  double FocalLength = 0; ///< px; for an orthographic camera px per unit
+  unsigned Side = 0;      ///< longest side of the picture, px
   /// @}
-  /// Needles that point at the camera so nearly that fp32 rounds off what the
-  /// picture has of them.
+  /// Number of needles towards the camera whose footprints lose precision in
+  /// fp32.
   std::size_t Pointing = 0;
-  double Farthest = 0; ///< from the camera, a mean, by its largest coordinate
-  float LeastLogit = 0, MostLogit = 0; ///< of opacity
-  /// Per band from 1: a Gaussian with a coefficient other than zero, the first
-  /// there is, or \c NoWitness.
+  double Farthest = 0; ///< distance of a mean from the camera, maximum norm
+  float LeastLogit = 0, MostLogit = 0; ///< logits of opacity
+  /// For each band from 1: the first Gaussian with a nonzero coefficient, or \c
+  /// NoWitness.
   static constexpr std::size_t NoWitness = ~std::size_t{0};
   std::array<std::size_t, MaxShDegree> BandWitness{NoWitness, NoWitness,
                                                    NoWitness};
 };
 
-/// The facts that need no scene.
+/// The properties that do not depend on the scene.
 ViewFacts factsOfCamera(const splat_view &View);
 
-/// A NaN among the values gives figures by which everything is needed.
+/// If a value is NaN, all effects are needed.
 ViewFacts factsOf(const Scene &S, const splat_view &View,
                   const RenderOptions &Options);
 
-/// Of two views of one scene: by these is needed what either needs.
-/// Of the near plane, they are those of the view of which it takes the larger
-/// share.
+/// The combination for two views of a scene, which need an effect if one of
+/// them does. The figures of the near plane are those of the view in which it
+/// culls the larger fraction.
 ViewFacts combined(const ViewFacts &A, const ViewFacts &B);
 
 } // namespace vorion::splat

@@ -1,5 +1,5 @@
-/// From a loss's gradients by the pixels of a frame to those by its Gaussians,
-/// on the device.
+/// The backward pass on the device: from gradients of a loss by pixels to
+/// gradients by Gaussians.
 #pragma once
 
 #include "picture/Layout.h"
@@ -10,18 +10,18 @@
 
 namespace vorion::splat {
 
-/// How the rasterizer's gather adds up the rows of a tile.
+/// The order in which the rasterizer's gather sums the rows of a tile.
 enum class GatherOrder { Tree, Rows };
 
 constexpr std::string_view name(GatherOrder O) {
   return O == GatherOrder::Tree ? "tree" : "rows";
 }
 
-/// How the cores' way back adds up the pixels of a Gaussian.
+/// How the backward pass on the cores sums the pixels of a Gaussian.
 enum class SimtSums {
   Ordered, ///< tile by tile in a fixed order
-  Atomics, ///< by atomics in memory, as INRIA's program does
-  Warp     ///< the pixels of a warp first, then by atomics
+  Atomics, ///< by atomics in memory, as in INRIA's program
+  Warp     ///< within a warp first, then by atomics
 };
 
 constexpr std::string_view name(SimtSums S) {
@@ -36,8 +36,8 @@ constexpr std::string_view name(SimtSums S) {
   return {};
 }
 
-/// Whose gradients are wanted: of scales and opacities as they are activated,
-/// or of their logarithms and logits, as they are stored.
+/// The parameters of the gradients: activated scales and opacities, or the
+/// stored logarithms and logits.
 enum class GradientsOf { Activated, Stored };
 
 struct BackwardOptions {
@@ -45,46 +45,47 @@ struct BackwardOptions {
   GatherOrder Order = GatherOrder::Tree;
   SimtSums Pixels = SimtSums::Ordered;
   GradientsOf Parameters = GradientsOf::Activated;
-  /// Also the sums of absolute gradients by the projected mean, x and y, px, as
-  /// planes of \c sums() from SUM_WORDS on. By the cores alone: the rasterizer
-  /// has no such sums.
+  /// Also computes the sums of absolute gradients by the projected mean, x and
+  /// y, px, as planes of \c sums() from SUM_WORDS on. Only on the cores: the
+  /// rasterizer has no such sums.
   bool AbsoluteSums = false;
-  /// Whether the frames are of a plan with these effects.
+  /// Whether the plan of the frames has these effects.
   bool Windows = false, Needles = false;
-  /// Runs may have depth targets.
+  /// Whether runs may have depth targets.
   bool Depths = false;
-  /// \c gradients() has the planes of kernels/pose.h, too.
+  /// Whether \c gradients() also has the planes of kernels/pose.h.
   bool Poses = false;
 
   uint32_t sums() const { return SUM_WORDS + (AbsoluteSums ? 2U : 0U); }
 };
 
-/// The programs that the way back needs beside those of \c planRender.
+/// The programs of the backward pass in addition to those of \c planRender.
 std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
                                       const BackwardOptions &B);
 
-/// Builds them. An error sticks where the device has not the lanes of sums by
-/// warps.
+/// Builds them. The launcher keeps an error if the device does not have the
+/// number of lanes of sums by warps.
 void buildBackward(Launcher &Launch, int ShDegree, const RenderOptions &O,
                    const BackwardOptions &B);
 
-/// Takes gradients back through frames that a \c Pipeline drew with the option
-/// Training. Errors stick in the launcher.
+/// The backward pass through frames that a \c Pipeline rendered with the option
+/// Training. The launcher keeps errors.
 class BackwardPipeline {
 public:
-  /// Keeps references to all but \p B. \p ShDegree: of the Gaussians' buffers.
+  /// Keeps references to all arguments except \p B. \p ShDegree is that of the
+  /// Gaussians' buffers.
   BackwardPipeline(Launcher &Launch, const RenderOptions &O,
                    const BackwardOptions &B, int ShDegree)
       : Launch(Launch), Options(O), Choice(B), ShDegree(ShDegree) {}
 
-  /// What the loss says of each pixel: dL/d(red, green, blue) of the picture
-  /// over \p Background, and dL/d(alpha), 3 floats and 1.
+  /// Sets the gradients of the loss for each pixel: dL/d(red, green, blue) of
+  /// the picture over \p Background, and dL/d(alpha), 3 floats and 1.
   void setUpstream(const Frame &F, const cl::Buffer &ByRender,
                    const cl::Buffer &ByAlpha,
                    const std::array<float, 3> &Background);
-  /// Back through blending and projection of the frame that \p Forward has
-  /// drawn, in stages of the launcher's; through its depths, too, if there are
-  /// \p Known ones.
+  /// Backward pass through blending and projection of the frame that \p Forward
+  /// rendered, as stages of the launcher; also through its depths if \p Known
+  /// has targets.
   void run(Pipeline &Forward, const DepthTargets &Known = {});
   /// Frees the results.
   void forget() { Upstream = PairSums = Sums = Gradients = ShGradients = {}; }
@@ -93,7 +94,7 @@ public:
   /// @{
   const cl::Buffer &sums() const { return Sums; } ///< at least SUM_WORDS planes
   const cl::Buffer &gradients() const { return Gradients; } ///< GRADIENT_PLANES
-  /// Plane 3 k + c: of coefficient k of channel c.
+  /// Plane 3 k + c: coefficient k of channel c.
   const cl::Buffer &shGradients() const { return ShGradients; }
   /// @}
 

@@ -15,8 +15,8 @@ inline float leastPower(const RenderOptions &O) {
   return static_cast<float>(std::round(1e6 * Power) / 1e6);
 }
 
-/// Sets the choices of \p P that follow from \p O, as far as its program takes
-/// them. \p P is a structure `Program` of kernel_headers.py.
+/// Sets the choices of \p P that follow from \p O, if its program has them. \p
+/// P is a structure `Program` of kernel_headers.py.
 template <typename Program> void choose(Program &P, const RenderOptions &O) {
   const bool Inria = O.Convention == Rules::Inria;
   if constexpr (requires { P.TILE_SIZE; }) {

@@ -1,4 +1,4 @@
-/// What is known of a picture's depths before it is drawn.
+/// Known depths of a picture, as targets of training.
 #pragma once
 
 #include <cstdint>
@@ -6,18 +6,18 @@
 
 namespace vorion::splat {
 
-/// A place of which the depth is known. The device reads it as two words.
+/// A pixel with a known depth. The device reads it as two words.
 struct DepthPoint {
-  uint32_t Pixel;  ///< rows from the top
-  float Disparity; ///< 1 over its depth, positive and finite
+  uint32_t Pixel;  ///< index in row-major order, rows from the top
+  float Disparity; ///< 1 / depth, positive and finite
 
   bool operator==(const DepthPoint &) const = default;
 };
 
-/// A part of the loss: \c Weight times the sum over \c Points of the absolute
-/// difference of 1 over the expected depth there and \c Disparity.
+/// A term of the loss: \c Weight times the sum over \c Points of the absolute
+/// difference between 1 / (expected depth) and \c Disparity.
 struct DepthTargets {
-  const std::vector<DepthPoint> *Points = nullptr; ///< by pixel; or none
+  const std::vector<DepthPoint> *Points = nullptr; ///< sorted by pixel; or null
   float Weight = 0;
 
   bool any() const { return Points && !Points->empty(); }

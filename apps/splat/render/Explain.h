@@ -1,4 +1,4 @@
-/// What a plan's effects are and why, for people and for programs.
+/// Explanation of a plan's effects, as text and as JSON.
 #pragma once
 
 #include "render/Plan.h"
@@ -8,12 +8,12 @@
 
 namespace vorion::splat {
 
-/// A line a program with its files and macros, then a line an effect, by kind:
-/// whether it is on, in which form its code is there, and the figure that
-/// decided.
+/// One line for each program with its files and macros, then one line for each
+/// effect, by kind: whether it is on, the form of its code, and the deciding
+/// figure.
 std::string explain(const RenderPlan &Plan);
 
-/// JSON array of the same: name, kind, needed, on, code, figure.
+/// The same as a JSON array: name, kind, needed, on, code, figure.
 nlohmann::ordered_json effectsJson(const EffectPlan &Plan);
 
 } // namespace vorion::splat

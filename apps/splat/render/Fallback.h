@@ -1,4 +1,5 @@
-/// When compiling for a scene costs its first frame more than it saves.
+/// Selection of precompiled programs if compiling for a scene takes longer than
+/// it saves in the first frame.
 #pragma once
 
 #include "device/Launcher.h"
@@ -8,17 +9,17 @@
 
 namespace vorion::splat {
 
-/// Whether a frame of \p Gaussians should be drawn by the programs with
-/// run-time flags: only if these are compiled already (\p FlagsBuilt), \p
-/// Unbuilt of the specialised ones are not, and to compile them takes longer
-/// than flags cost this one frame. Where neither is compiled, the specialised
-/// ones are less code.
+/// Whether a frame of \p Gaussians should use the programs with run-time flags:
+/// only if these are compiled (\p FlagsBuilt), \p Unbuilt of the specialized
+/// programs are not, and compiling them takes longer than the flags cost in
+/// this frame. If neither are compiled, the specialized programs have less
+/// code.
 bool paysToFallBack(std::size_t Gaussians, std::size_t Unbuilt,
                     bool FlagsBuilt);
 
-/// \p Specialised, or the plan with run-time flags if \p L's device should
-/// rather draw by it. Both give the same bits, not the same instructions: for
-/// frames of which no figures are wanted.
+/// \p Specialised, or the plan with run-time flags if that is faster on \p L's
+/// device. Pictures are bit-identical, instruction counts are not: only for
+/// frames without reports.
 RenderPlan cheaperFirstFrame(const Launcher &L, const RenderPlan &Specialised,
                              const EffectInputs &In);
 

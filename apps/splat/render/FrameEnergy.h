@@ -1,5 +1,5 @@
-/// What a frame costs on the machine in joules, by stage, kernel and unit
-/// (docs/energy.md), from its time reports.
+/// The energy of a frame on the machine, by stage, kernel and unit
+/// (docs/energy.md), computed from its time reports.
 #pragma once
 
 #include "render/Renderer.h"
@@ -12,23 +12,23 @@
 
 namespace vorion::splat {
 
-/// That energies are wanted, and by which numbers.
+/// A request for energies: the technology and voltage.
 struct EnergyRequest {
   isasim::Technology From;
-  std::optional<double> Volts; ///< by the technology's law, if not given
+  std::optional<double> Volts; ///< default: by the technology's law
 };
 
-/// Whether \p Request can say how much energy a run with the report \p T took:
-/// whether it knows the machine's clock and DRAM.
+/// Checks that \p Request defines the clock and DRAM of the machine of \p T,
+/// which its energy needs.
 Expected<Success> checkEnergy(const TimeReport &T,
                               const EnergyRequest &Request);
 
-/// JSON of the frame: joules a unit, a stage and a kernel, and the machine's
-/// area. Null without the clock. The errors are the model's.
+/// JSON of the frame: joules of each unit, stage and kernel, and the machine's
+/// area. Null without the clock. Errors are those of the energy model.
 Expected<nlohmann::ordered_json>
 frameEnergyJson(const std::vector<StageReport> &Stages,
                 const EnergyRequest &Request);
-/// The same as tables, in which \p What stands for a frame; empty without the
+/// The same as tables, with \p What in place of "frame"; empty without the
 /// clock.
 Expected<std::string> frameEnergyText(const std::vector<StageReport> &Stages,
                                       const EnergyRequest &Request,

@@ -1,4 +1,4 @@
-/// One forward and one backward pass of a view, with everything that comes out.
+/// One forward and one backward pass of a view, and their results.
 #pragma once
 
 #include "io/Cameras.h"
@@ -11,35 +11,35 @@
 
 namespace vorion::splat {
 
-/// dL/d(picture with background), 3 a pixel, and dL/d(alpha), 1 a pixel, rows
-/// from the top.
+/// dL/d(picture with background), 3 per pixel, and dL/d(alpha), 1 per pixel,
+/// rows from the top.
 struct PixelGradients {
   std::vector<float> Render, Alpha;
 };
 
-/// dL/d(parameters), in the order of the scene; of activated scales and
-/// opacities, and of quaternions as they are stored.
+/// dL/d(parameters), in the order of the scene, by activated scales and
+/// opacities and by stored quaternions.
 struct SceneGradients {
   std::vector<float> Means, Scales, Quats, Opacities; ///< 3, 3, 4, 1 each
   std::vector<float> Sh;      ///< [coefficient][channel] each
   std::vector<float> Means2d; ///< 2 each, px
   std::vector<float> Conics;  ///< 3 each: xx, xy (once), yy
-  /// What the rasterizer hands over (docs/abi.md, "Backward"): SUM_WORDS
-  /// planes.
+  /// The sums that the rasterizer passes to the cores (docs/abi.md,
+  /// "Backward"): SUM_WORDS planes.
   std::vector<float> Sums;
 };
 
-/// The picture, the stages of both passes, and what came back.
+/// The picture, the stages of both passes, and the gradients.
 struct GradientResult : RenderResult {
   SceneGradients Gradients;
 };
 
-/// The plan by which \c takeGradients renders.
+/// The plan of \c takeGradients.
 RenderPlan gradientPlan(const Scene &S, const Camera &C,
                         const RenderOptions &Options);
 
-/// Renders \p S as \p C sees it and takes \p U back. \p Options has Training
-/// set.
+/// Renders the view \p C of \p S and propagates \p U to the parameters. \p
+/// Options must have Training set.
 Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
                                        const Camera &C,
                                        const RenderOptions &Options,

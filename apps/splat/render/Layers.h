@@ -1,5 +1,5 @@
-/// What a picture has beside its colours: depths, normals, opacity, and the
-/// Gaussians of each pixel (docs/judging.md, "Outputs beside the picture").
+/// Additional outputs of a picture: depths, normals, opacity, and the Gaussians
+/// of each pixel (docs/judging.md, "Outputs beside the picture").
 #pragma once
 
 #include "render/Renderer.h"
@@ -11,11 +11,11 @@
 
 namespace vorion::splat {
 
-/// What stands for a pixel's many depths.
+/// The definition of a pixel's depth.
 enum class DepthAs {
   Accumulated, ///< the sum of weights times depths
-  Expected,    ///< that over the sum of weights
-  Median       ///< where half of the light is left
+  Expected,    ///< the same divided by the sum of weights
+  Median       ///< where the transmittance falls to a half
 };
 
 constexpr std::string_view name(DepthAs D) {
@@ -26,19 +26,19 @@ constexpr std::string_view name(DepthAs D) {
 
 inline constexpr unsigned MaxTop = 64;
 
-/// The files that are wanted; empty ones are not.
+/// The requested files; empty names are not requested.
 struct LayerFiles {
   std::string Depth, Normals, Opacity, Contributors;
   DepthAs As = DepthAs::Accumulated;
-  unsigned Top = 8; ///< contributors that are kept of a pixel, 1 to MaxTop
+  unsigned Top = 8; ///< contributors per pixel, 1 to MaxTop
 
-  /// As their options name them.
+  /// The files with the names of their options.
   std::vector<NamedFile> named() const;
   bool any() const {
     return !Depth.empty() || !Normals.empty() || !Opacity.empty() ||
            !Contributors.empty();
   }
-  /// \name What the device is to do for them
+  /// \name What they need from the device
   /// @{
   bool needDepths() const { return !Depth.empty() && As != DepthAs::Median; }
   bool needNormals() const { return !Normals.empty(); }
@@ -48,10 +48,11 @@ struct LayerFiles {
   /// @}
 };
 
-/// The depths of \p R, which \p O drew with what \p As needs.
+/// The depths of \p R, rendered with \p O and the outputs that \p As needs.
 DepthMap depthsOf(const RenderResult &R, const RenderOptions &O, DepthAs As);
 
-/// Writes them of \p R, which \p O drew with all that they need.
+/// Writes the files for \p R, rendered with \p O and all outputs that they
+/// need.
 Expected<Success> writeLayers(const LayerFiles &F, const RenderResult &R,
                               const RenderOptions &O);
 

@@ -1,4 +1,4 @@
-/// Work in a process of its own.
+/// Work in a separate process.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -8,9 +8,8 @@
 
 namespace vorion::splat {
 
-/// What \p Work gives in a child of this process, which ends with it: it finds
-/// the machine as new as every process does. This process must have no threads
-/// and no device yet.
+/// Executes \p Work in a child process and returns its result. The child has a
+/// new machine. This process must have no threads and no open device.
 Expected<std::string>
 inOwnProcess(const std::function<Expected<std::string>()> &Work);
 

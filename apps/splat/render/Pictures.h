@@ -13,15 +13,15 @@
 
 namespace vorion::splat {
 
-/// What pictures are made of, where they go, and what makes them.
+/// Inputs, outputs and renderer of pictures.
 struct PictureJob {
-  /// For reports: how the scene and its views were asked for.
+  /// For reports: the scene and its views on the command line.
   std::string ScenePath, AxesChange, CameraFile;
   const SceneFile &Input;
   const RenderOptions &Options;
   const RenderPlan &Plan;
   Launcher &Launch;
-  /// \name Files, of which all but the first may be empty: not wanted
+  /// \name Output files; all but the first may be empty (not requested)
   /// @{
   std::string Output, Json, Pairs;
   LayerFiles Layers;
@@ -30,28 +30,29 @@ struct PictureJob {
   std::optional<EnergyRequest> Energy = std::nullopt;
 };
 
-/// The facts by which every effect is needed that some view needs.
+/// The combined properties of all views: an effect is needed if one view needs
+/// it.
 ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
                      const RenderOptions &O);
 
 /// Renders one view.
 Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C);
-/// Writes what \p J asks for of the picture of \p C.
+/// Writes the outputs of \p J for the picture of \p C.
 Expected<Success> writePicture(const PictureJob &J, const Camera &C,
                                const RenderResult &R);
 
-/// What was done for the picture \p Output of \p C, as --json has it.
+/// The report of the picture \p Output of \p C, for --json.
 Expected<nlohmann::ordered_json> reportOf(const PictureJob &J,
                                           const std::string &Output,
                                           const Camera &C,
                                           const RenderResult &R);
 
-/// The picture's file of one of several views: for out.png and view front
-/// out.front.png, for a/front out.a_front.png.
+/// The file name of a picture of several: out.front.png for out.png and view
+/// front, out.a_front.png for view a/front.
 std::string pictureFile(const std::string &Output, const Camera &C);
 
-/// Writes the pictures of \p Cameras and one report of all. \p Written is told
-/// each picture's file.
+/// Writes the pictures of \p Cameras and one report. \p Written is called with
+/// the file name of each picture.
 Expected<Success>
 writePictures(const PictureJob &J, const std::vector<Camera> &Cameras,
               bool Overlap, const SequenceResult &R,

@@ -14,31 +14,33 @@
 
 namespace vorion::splat {
 
-/// Work-items of a group where a kernel has no say.
+/// Default number of work-items of a group.
 inline constexpr uint32_t GroupSize = 64;
 
-/// Whole groups with a work-item for each of \p Count things.
+/// A range of complete groups with at least \p Count work-items.
 cl::NDRange itemsFor(uint32_t Count);
 
-/// Why Gaussians were culled, by the enumerators of kernels/layout.h.
+/// Reasons for culling Gaussians, in the order of the enumerators of
+/// kernels/layout.h.
 inline constexpr std::array<std::string_view, 5> CullReasons{
     "near", "degenerate", "faint", "outside", "non_finite"};
 
-/// Work-items of a group that has a core for itself: a warp.
+/// Work-items of a group that occupies a core: those of a warp.
 inline constexpr std::size_t Lanes = 16;
 
-/// Gaussians in the device's memory, before activation: in training in planes,
-/// else in blocks of them (kernels/layout.h).
+/// Gaussians in device memory, before activation: in planes for training,
+/// otherwise in blocks of planes (kernels/layout.h).
 struct GaussianBuffers {
   cl::Buffer Geometry; ///< planes of layout.h's GEOMETRY_PLANES
-  cl::Buffer Sh; ///< plane 3 k + c: coefficient k, of those there, of channel c
+  cl::Buffer Sh;       ///< plane 3 k + c: k-th stored coefficient of channel c
   uint32_t Count = 0;
-  cl::Buffer Bounds; ///< of blocks, with the effect \c CullBlocks
+  cl::Buffer Bounds; ///< bounds of blocks, with the effect \c CullBlocks
 };
 
-/// Copies \p S to the device in planes, harmonics up to \p ShDegree.
+/// Copies \p S to the device in planes, with harmonics up to \p ShDegree.
 GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S, int ShDegree);
-/// In blocks, the bands that \p Plan evaluates, zeros where \p S has none.
+/// Copies \p S in blocks, with the bands that \p Plan evaluates, zero-filled if
+/// \p S lacks them.
 GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
                                 const EffectPlan &Plan);
 
@@ -47,94 +49,97 @@ struct Frame {
   splat_view View{};
   GaussianBuffers Gaussians;
   cl::Buffer Camera, Records, Rectangles;
-  Sorter::Pairs Depths; ///< keys of every Gaussian, as projected
-  cl::Buffer Order;     ///< the Gaussians seen, by depth
+  Sorter::Pairs Depths; ///< keys of all Gaussians after projection
+  cl::Buffer Order;     ///< visible Gaussians by depth
   cl::Buffer Ordered;   ///< their rectangles
-  cl::Buffer Sums;      ///< and tiles, a sum a work-item
-  /// In training: where the pairs of the i-th of them begin, before they are
-  /// sorted by tile; one more for the end.
+  cl::Buffer Sums;      ///< and sums of tiles, one per work-item
+  /// In training: the start of the pairs of the i-th visible Gaussian, before
+  /// they are sorted by tile; and the end.
   cl::Buffer Places;
   /// Tiles of the pairs, and the lists of all tiles. In training the values are
-  /// the pairs' places before the sort, and List is what they name.
+  /// the positions of pairs before the sort, and List has the Gaussians.
   Sorter::Pairs ByTile;
   cl::Buffer List;
   cl::Buffer Ranges; ///< of each tile in the list
-  /// The records that are blended: with the effect \c Windows those of the
-  /// windows (kernels/window.h), else Records.
+  /// The blended records: those of the windows (kernels/window.h) with the
+  /// effect \c Windows, otherwise Records.
   cl::Buffer Blended;
-  /// Where rasterizers draw, tiles by length; or those of each rasterizer, as
-  /// kernels/deal_last_frame.cl leaves them.
+  /// For rasterizers: tiles sorted by length, or the tiles of each rasterizer
+  /// from kernels/deal_last_frame.cl.
   cl::Buffer TileOrder;
-  cl::Buffer Parts;    ///< what they draw: Pixels, or its depth parts
+  cl::Buffer Parts;    ///< their output: Pixels, or its depth segments
   cl::Buffer Tails;    ///< their hand-over records
   cl::Buffer Statuses; ///< of the cores that started them
-  cl::Buffer Pixels;   ///< colour in front of the background, transmittance
-  /// In training: entries of its list that a pixel has taken. Where the last
-  /// frame deals: Gaussians and fragments that a tile has taken, which the next
-  /// frame inherits.
+  cl::Buffer Pixels;   ///< colour without background, transmittance
+  /// In training: entries of the list that a pixel has processed. If tiles are
+  /// distributed by the last frame: Gaussians and fragments of each tile, for
+  /// the next frame.
   cl::Buffer Last;
-  /// With the effect \c Windows: how they lie, and a splat_crop of each.
+  /// With the effect \c Windows: their layout, and a splat_crop for each.
   splat_windows Windows{};
   cl::Buffer WindowRays;
   uint32_t WindowCount = 0;
-  cl::Buffer RayFrames; ///< with the effect \c RayOrder: a splat_ray_frame each
+  cl::Buffer RayFrames; ///< with the effect \c RayOrder: a splat_ray_frame for
+                        ///< each Gaussian
   uint32_t Visible = 0, Pairs = 0;
-  uint32_t LeastKey = 0, GreatestKey = 0; ///< of those seen
+  uint32_t LeastKey = 0, GreatestKey = 0; ///< of visible Gaussians
   std::array<uint64_t, CullReasons.size()> Culled{};
 
-  /// Gaussians with their copies beyond the sides of a picture that closes;
-  /// those of each kind begin at a whole line (kernels/project_copies.cl).
+  /// Copies of each Gaussian: 3 for a full sphere, for the positions beyond its
+  /// left and right edge. Each set of copies is aligned to a line
+  /// (kernels/project_copies.cl).
   uint32_t Copies = 1;
   uint32_t stride() const {
     return Copies == 1 ? Gaussians.Count
                        : LINE_WORDS * blocksOf(Gaussians.Count);
   }
   uint32_t drawn() const { return Copies * stride(); }
-  /// Gaussians that a tile sees, each once; Visible counts copies too.
+  /// Visible Gaussians, each counted once; Visible also counts copies.
   uint32_t seen() const;
 
   uint32_t tiles() const { return View.tiles[0] * View.tiles[1]; }
   uint32_t pixels() const { return View.size[0] * View.size[1]; }
 };
 
-/// Draws pictures of one size and kind. Needs the programs of \c planRender
-/// for the same options; errors stick in the launcher.
+/// Renders pictures of one size and kind. Needs the programs of \c planRender
+/// for the same options. The launcher keeps errors.
 class Pipeline {
 public:
-  /// Keeps references to \p Launch and \p O. \p Effects: of the programs.
+  /// Keeps references to \p Launch and \p O. \p Effects is the plan of the
+  /// programs.
   Pipeline(Launcher &Launch, const RenderOptions &O, EffectPlan Effects)
       : Launch(Launch), Options(O), Plan(std::move(Effects)), Sort(Launch) {}
 
-  /// Projects, sorts and blends \p Gaussians as \p C sees them; each step is a
-  /// stage of the launcher's. Buffers of the frame before are released.
+  /// Projects, sorts and blends \p Gaussians for the view \p C; each step is a
+  /// stage of the launcher. Releases the buffers of the previous frame.
   void draw(const GaussianBuffers &Gaussians, const Camera &C);
 
-  /// \name The same in steps, for the rasterizers' path
-  /// Between startBlending() and waitForBlending() other kernels may run, of
-  /// other pipelines too, but only one pipeline may be between them.
+  /// \name The same in steps, for the path `raster`
+  /// Between startBlending() and waitForBlending() other kernels may run, also
+  /// of other pipelines, but only one pipeline may be between them.
   /// @{
   void prepare(const GaussianBuffers &Gaussians, const Camera &C);
-  /// Tiles by length, and what blending needs of memory.
+  /// Sorts tiles by length, and allocates the memory for blending.
   void prepareRasterizers();
   void startBlending();
   void waitForBlending();
   void endBlending();
   /// @}
 
-  /// Blends the frame's lists once more, with depths for the colours of its
-  /// records; of what comes back the first channel is the sum of weights times
-  /// depths. Needs the effect \c Depth; the frame's own pixels stay.
+  /// Blends the lists of the frame again with depths in place of colours. The
+  /// first channel of the result is the sum of weights times depths. Needs the
+  /// effect \c Depth; the frame's pixels do not change.
   cl::Buffer drawDepths();
   /// The same with normals. Needs the effect \c Normals.
   cl::Buffer drawNormals();
 
-  /// In training: the frame as it is with the colours of \p Records, blended.
-  /// The frame itself stays.
+  /// In training: a copy of the frame, blended with the colours of \p Records.
+  /// The frame does not change.
   Frame drawBeside(const cl::Buffer &Records);
 
   const Frame &frame() const { return Current; }
 
-  /// What the rasterizers are told of a picture.
+  /// The options of the rasterizers for a picture.
   splat_blend_options blendOptions() const;
   /// Fails if a core's status among \p Statuses is not 0.
   void checkStatuses(const cl::Buffer &Statuses);
@@ -142,7 +147,7 @@ public:
 private:
   void project(const Camera &C);
   cl::Buffer cullBlocks();
-  /// Whether a lens or a crop lies behind the view.
+  /// Whether a lens or a crop follows the view in the buffer.
   bool hasMoreThanView() const;
   void writeCamera(const Camera &C);
   void divide(const Camera &C);
@@ -168,8 +173,9 @@ private:
   EffectPlan Plan;
   Sorter Sort;
   Frame Current;
-  cl::Buffer Counts;     ///< of the tiles, over all frames; see Frame::Last
-  cl::Buffer LastRanges; ///< where the last frame deals: its lists
+  cl::Buffer Counts;     ///< of tiles, over all frames; see Frame::Last
+  cl::Buffer LastRanges; ///< lists of the last frame, if it distributes the
+                         ///< tiles
 };
 
 } // namespace vorion::splat

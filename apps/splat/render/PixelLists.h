@@ -1,6 +1,6 @@
-/// What each pixel is made of. The device's pixels have three channels and no
-/// lists, so the host goes through the lists and projected Gaussians that the
-/// device has made, by the device's arithmetic.
+/// The contributions to each pixel. The device returns three channels per pixel
+/// and no lists, so the host evaluates the lists and projected Gaussians of the
+/// device, with the device's arithmetic.
 #pragma once
 
 #include "picture/Layout.h"
@@ -13,41 +13,43 @@
 
 namespace vorion::splat {
 
-/// Of one picture.
+/// The lists of one picture.
 struct PixelLists {
-  std::array<uint32_t, 2> Size{};     ///< picture, px
+  std::array<uint32_t, 2> Size{};     ///< size of the picture, px
   std::array<uint32_t, 2> TileSize{}; ///< px
-  /// Those of each window, one window after the other; a whole picture is one.
+  /// Records of each window, in the order of windows; a picture without windows
+  /// is one.
   std::vector<splat_gaussian> Records;
   splat_windows Windows{31, 1, 0};
-  std::vector<float> Depths;  ///< of each record; of one not seen, anything
-  std::vector<uint32_t> List; ///< of all tiles; numbers of records in a window
+  std::vector<float> Depths;  ///< of each record; undefined if invisible
+  std::vector<uint32_t> List; ///< lists of all tiles; indices of records in a
+                              ///< window
   std::vector<std::array<uint32_t, 2>> Ranges; ///< of each tile in the list
-  uint32_t Stride = 0; ///< record i shows Gaussian i % Stride of the scene
+  uint32_t Stride = 0; ///< record i belongs to Gaussian i % Stride of the scene
 
   std::size_t pixels() const { return std::size_t{Size[0]} * Size[1]; }
 };
 
-/// Copies those of \p F, which \p O drew, to the host.
+/// Copies the lists of \p F, rendered with \p O, to the host.
 PixelLists readLists(Launcher &Launch, const Frame &F, const RenderOptions &O);
 
-/// That the host's arithmetic is that of \p O: exact exponential, blends in
-/// fp32, one depth part.
+/// Whether the host supports the arithmetic of \p O: exact exponential, fp32
+/// blending, one depth segment.
 bool hasPixelLists(const RenderOptions &O);
 
 /// The Gaussians with the largest weights of each pixel.
 struct Contributors {
-  /// For each pixel so many as were asked for, the largest weight first, and of
-  /// equal ones the nearer; then -1 and 0.
+  /// The requested number for each pixel, in descending order of weight, the
+  /// nearer of equal weights first; padded with -1 and 0.
   std::vector<int32_t> Indices; ///< in the scene
-  std::vector<float> Weights;   ///< alpha times the transmittance in front
-  std::vector<int32_t> Counts;  ///< that the pixel blends, of each pixel
+  std::vector<float> Weights;   ///< alpha times the transmittance before it
+  std::vector<int32_t> Counts;  ///< number of Gaussians that each pixel blends
 };
 Contributors topContributors(const PixelLists &L, const RenderOptions &O,
                              unsigned Most);
 
-/// The depth of the Gaussian behind which a pixel's transmittance is at most a
-/// half; of the last one where more is left, and 0 where there is none.
+/// The depth of the Gaussian after which a pixel's transmittance is at most a
+/// half; otherwise that of the last Gaussian; 0 without Gaussians.
 std::vector<float> medianDepths(const PixelLists &L, const RenderOptions &O);
 
 } // namespace vorion::splat

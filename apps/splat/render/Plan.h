@@ -1,4 +1,4 @@
-/// Which programs a picture needs, and what is compiled into them.
+/// The programs of a picture, and their compile-time choices.
 #pragma once
 
 #include "device/Launcher.h"
@@ -14,11 +14,11 @@ struct RenderPlan {
   std::vector<ProgramSpec> Programs;
 };
 
-/// The programs for \p Effects under \p Options. Each is built with its own
-/// choices alone, so that it is not built again for those of another.
+/// The programs for \p Effects with \p Options. Each is compiled with its own
+/// choices only, so that choices of other programs do not recompile it.
 RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options);
-/// Of training, which knows no scene and decides nothing by data: harmonics up
-/// to \p ShDegree, whatever they are, and all guards.
+/// The plan of training, which does not depend on the scene: harmonics up to \p
+/// ShDegree, and all guards.
 RenderPlan planRender(int ShDegree, const RenderOptions &Options);
 
 } // namespace vorion::splat

@@ -1,6 +1,6 @@
-/// Scenes as the device has them: a plane of values for each parameter, so that
-/// the lanes of a warp read neighbouring words, or the planes of 16 Gaussians
-/// side by side (kernels/layout.h).
+/// Device layouts of scenes: one plane of values for each parameter, so that
+/// the lanes of a warp read neighbouring words; or blocks with the planes of 16
+/// Gaussians (kernels/layout.h).
 #pragma once
 
 #include "scene/Scene.h"
@@ -19,19 +19,19 @@ std::vector<float> shPlanes(const Scene &S, int Degree);
 /// Words of the blocks of \p Count Gaussians with \p Planes planes each.
 std::size_t blockWords(std::size_t Count, std::size_t Planes);
 
-/// Write the same in blocks to \p To, which has as many words as
-/// \c blockWords() says and may have been written never; of the colours' planes
-/// those of \p Planes, zeros where the scene has none. The last block's places
-/// without a Gaussian are zeros.
+/// Write the same in blocks to \p To, which has \c blockWords() words and may
+/// be uninitialized. Of the colour planes, only \p Planes are written,
+/// zero-filled if the scene lacks them. Unused entries of the last block are
+/// zeros.
 void writeGeometryBlocks(const Scene &S, std::span<float> To);
 void writeShBlocks(const Scene &S, const std::vector<std::size_t> &Planes,
                    std::span<float> To);
 
-/// What each block's Gaussians are bounded by, in layout.h's BOUND_PLANES. A
-/// block with a number that is none has an infinite radius.
+/// The bounds of each block's Gaussians, in layout.h's BOUND_PLANES. A block
+/// with a NaN has an infinite radius.
 std::vector<float> blockBounds(const Scene &S);
 
-/// The scene of degree \p Degree that has these planes.
+/// The scene of degree \p Degree with these planes.
 Scene sceneOfPlanes(const std::vector<float> &Geometry,
                     const std::vector<float> &Sh, int Degree);
 

@@ -1,4 +1,4 @@
-/// What a render did, for people and for programs.
+/// Reports of a render, as text and as JSON.
 #pragma once
 
 #include "render/Backward.h"
@@ -13,14 +13,14 @@ namespace vorion::splat {
 
 struct SceneGradients;
 
-/// What gradients were taken back with: the loss's by the pixels in a file.
+/// The options of a backward pass, and the file with the gradients by pixels.
 struct BackwardRecord {
   const BackwardOptions &Options;
   const std::string &Upstream;
   const SceneGradients &Gradients;
 };
 
-/// Everything that made a picture, and gradients where there are some.
+/// The inputs and results of a picture, and of its gradients if present.
 struct RenderRecord {
   const std::string &ScenePath, &AxesChange, &CameraFile, &Output;
   const SceneFile &Input;
@@ -37,19 +37,18 @@ struct RenderRecord {
 /// kernel. Fails if an input cannot be read again.
 Expected<nlohmann::ordered_json> jsonReport(const RenderRecord &R);
 
-/// The part of it that knows no files, and without the time: the view, options,
-/// programs, device with its configuration, counts, stages and their total.
+/// The part without files and date: view, options, programs, device with its
+/// configuration, counts, stages and their total.
 Expected<nlohmann::ordered_json> drawnJson(const Camera &View,
                                            const RenderOptions &Options,
                                            const RenderPlan &Plan,
                                            const Device &Dev,
                                            const RenderResult &Result);
 
-/// fnv1a64 of the bits that were computed of \p P, whatever file they are
-/// written to.
+/// fnv1a64 of the computed bits of \p P, independent of the file format.
 std::string pictureHash(const Image &P);
 
-/// JSON array of stages: seconds, kernels with launches and counters.
+/// JSON array of stages: seconds, and kernels with launches and counters.
 nlohmann::ordered_json stagesJson(const std::vector<StageReport> &Stages);
 
 /// A short table.

@@ -7,16 +7,16 @@
 
 namespace vorion::splat {
 
-/// Needs the programs scan and sort to be built. Results depend on the input
-/// alone, not on how many groups share the work.
+/// Needs the programs scan and sort. Results depend only on the input, not on
+/// the number of groups.
 class Sorter {
 public:
-  /// Keys and values of some pairs.
+  /// Keys and values of pairs.
   struct Pairs {
     cl::Buffer Keys, Values;
   };
-  /// How \p Count things are shared out: groups of \c Lanes work-items have
-  /// stretches of \c Chunk.
+  /// Distribution of items: each group of \c Lanes work-items processes a range
+  /// of \c Chunk items.
   struct Share {
     uint32_t Groups, Lanes, Chunk;
     std::size_t items() const { return std::size_t{Groups} * Lanes; }
@@ -24,43 +24,44 @@ public:
 
   explicit Sorter(Launcher &Launch);
 
-  /// Out[i] = In[0] + ... + In[i-1] for i in [0, Count], saturating; \p Out
-  /// has Count + 1 words and is not \p In.
+  /// Exclusive prefix sum: Out[i] = In[0] + ... + In[i-1] for i in [0, Count],
+  /// saturating. \p Out has Count + 1 words and is not \p In.
   void scan(const cl::Buffer &In, const cl::Buffer &Out, uint32_t Count);
 
-  /// Bits of a key, from First to below End.
+  /// Bits of a key, First to End - 1.
   struct KeyBits {
     unsigned First, End;
   };
 
-  /// Whether the keys of sorted pairs are wanted, too.
+  /// Whether the keys of the sorted pairs are kept.
   enum class Keys { Sorted, Lost };
 
-  /// Sorts \p Count pairs by some bits of their keys, stably. The result
-  /// lies in one of \p A and \p B; \p Input is only read, and may be one of
-  /// them if it may be overwritten. Of one pass that loses the keys, \p B needs
-  /// none if \p Input is \p A.
+  /// Sorts \p Count pairs stably by \p Bits of their keys. The result is in \p
+  /// A or \p B. \p Input may be one of them if it may be overwritten. If the
+  /// sort takes one pass and keys are not kept, \p B needs no keys if \p Input
+  /// is \p A.
   Pairs sort(const Pairs &Input, const Pairs &A, const Pairs &B, uint32_t Count,
              KeyBits Bits, Keys Wanted);
 
-  /// Whether that takes one pass.
+  /// Whether the sort takes one pass.
   static bool inOnePass(KeyBits Bits);
-  /// After such a sort of pairs by the bits from 0 on: where the values of each
-  /// key below \p Number begin and end, two words a key. \p Number is not
-  /// above what so many bits can say.
+  /// After a sort by bits from 0 on: begin and end of the values of each key
+  /// below \p Number, two words per key. \p Number must not exceed the range of
+  /// these bits.
   void rangesOfKeys(const cl::Buffer &Ranges, uint32_t Number);
 
-  /// Keys of which some are left out: those with the highest bit.
+  /// Keys of which those with the highest bit are dropped.
   struct KeptKeys {
     uint32_t Count;
-    uint32_t Kept;        ///< of them
-    uint32_t Least, Most; ///< of those
-    unsigned FirstBit;    ///< lower ones decide nothing
+    uint32_t Kept;        ///< number of kept keys
+    uint32_t Least, Most; ///< range of the kept keys
+    unsigned FirstBit;    ///< lower bits are ignored
   };
-  /// The numbers of the kept ones by their keys, stably.
+  /// The indices of the kept keys, stably sorted by key.
   cl::Buffer sortKept(const cl::Buffer &From, const KeptKeys &What);
 
-  /// A group a core, a lane a work-item; stretches of whole lines.
+  /// One group per core, one work-item per lane; ranges of complete cache
+  /// lines.
   Share share(uint32_t Count) const;
 
 private:

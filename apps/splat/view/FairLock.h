@@ -1,4 +1,4 @@
-/// A lock that is given in the order in which it was asked for.
+/// A lock that is granted in the order of requests.
 #pragma once
 
 #include <condition_variable>
@@ -9,24 +9,25 @@
 
 namespace vorion::splat {
 
-/// For std::lock_guard. A std::mutex may give itself to the same thread again
-/// and again while another waits.
+/// For std::lock_guard. A std::mutex is not fair: one thread may acquire it
+/// repeatedly while another waits.
 class FairLock {
 public:
-  /// Waits behind everybody who waits already.
+  /// Waits for all earlier requests.
   void lock() {
     lockUnless([] { return false; });
   }
-  /// The same, but \p GiveUp is asked every few milliseconds whether to leave
-  /// the queue; the lock is then not held, and false returned.
+  /// The same, but polls \p GiveUp every few milliseconds. If it returns true,
+  /// the request is cancelled: the lock is not held, and the result is false.
   bool lockUnless(const std::function<bool()> &GiveUp);
   void unlock();
 
 private:
   std::mutex Lock;
   std::condition_variable Changed;
-  uint64_t Last = 0;            ///< ticket that was given
-  std::deque<uint64_t> Tickets; ///< the first one's owner holds the lock
+  uint64_t Last = 0;            ///< last issued ticket
+  std::deque<uint64_t> Tickets; ///< the owner of the first ticket holds the
+                                ///< lock
 };
 
 } // namespace vorion::splat

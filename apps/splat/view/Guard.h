@@ -1,5 +1,5 @@
-/// Who may use the server of `splat view`: the page that it sends itself, in
-/// the hands of somebody who knows the address that was printed.
+/// Access control of the server of `splat view`: only its own page, opened by
+/// the printed address, may use it.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -10,30 +10,32 @@
 
 namespace vorion::splat {
 
-/// What a request says of where it comes from; empty where it says nothing.
+/// The origin of a request; empty strings for absent fields.
 struct Visitor {
   bool IsPost = false;
-  bool IsPage = false; ///< asks for a file of the page, which holds no secret
+  bool IsPage = false; ///< requests a file of the page, which is not secret
   std::string Host, Origin, Token;
 };
 
-/// Whether both are the same; the time depends on the length of \p Asked alone.
+/// Compares the strings in a time that depends only on the length of \p Asked.
 bool sameInConstantTime(std::string_view Kept, std::string_view Asked);
 
 class Guard {
 public:
-  /// With a token of 128 random bits. Fails where the system has none.
+  /// Creates a token of 128 random bits. Fails if the system provides no random
+  /// numbers.
   static Expected<Guard> make();
   explicit Guard(std::string Token) : Secret(std::move(Token)) {}
 
-  /// What is listened on, of the loopback.
+  /// Sets the loopback port of the server.
   void listensOn(int Port);
 
-  /// Why \p V may not pass, for people; nothing if it may.
-  /// - The header Host names the loopback and our port: a page elsewhere whose
-  ///   name is made to point here (DNS rebinding) names itself.
-  /// - Origin, which browsers send with every POST, is our own page.
-  /// - All but the page's files need the token.
+  /// The reason to reject \p V, as text; empty if it is accepted. Accepted
+  /// requests satisfy:
+  /// - The header Host names the loopback address and the port. This excludes
+  ///   DNS rebinding, where Host is the name of another page.
+  /// - Origin, which browsers send with every POST, is this server's page.
+  /// - All requests except those for the page's files have the token.
   std::optional<std::string> refuse(const Visitor &V) const;
 
   const std::string &token() const { return Secret; }

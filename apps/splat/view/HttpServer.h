@@ -1,5 +1,5 @@
-/// Answers HTTP/1.1 on 127.0.0.1. Whatever a client sends, or does not send,
-/// takes bounded memory for a bounded time and keeps no other client waiting.
+/// HTTP/1.1 server on 127.0.0.1. Memory and time of a client are bounded
+/// whatever it sends, and it cannot block other clients.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -27,55 +27,55 @@ struct HttpAnswer {
   std::string Type, Body;
 };
 
-/// A whole request.
+/// A complete request.
 struct HttpCall {
   const HttpRequest &Request;
-  /// Whether the client has closed the connection meanwhile.
+  /// Whether the client has closed the connection.
   std::function<bool()> HasLeft;
 };
 
-/// What answers a request that is worth reading its body and a thread.
+/// The work for a request that needs its body and a thread.
 struct HttpWork {
-  std::string Client;         ///< who asks, for HttpLimits::RequestsOfClient
+  std::string Client;         ///< client name, for HttpLimits::RequestsOfClient
   std::uint64_t MostBody = 0; ///< bytes
   std::function<HttpAnswer(const HttpCall &)> Answer; ///< on another thread
 };
 
-/// What clients may have. A connection begins, and ends, as a stranger's: it
-/// has not shown yet, or not any more, a request that becomes HttpWork.
+/// Limits of clients. A connection without a request that is HttpWork counts as
+/// a stranger: before its first request and after the last.
 struct HttpLimits {
   std::size_t HeadBytes = 8 << 10;  ///< of a request line and all header lines
-  std::size_t Strangers = 512;      ///< one more, and the oldest is closed
-  std::size_t Requests = 16;        ///< one more is answered with 503
-  std::size_t RequestsOfClient = 6; ///< one more is answered with 429
-  /// Of the bodies of all requests; more is answered with 503.
+  std::size_t Strangers = 512;      ///< beyond that, the oldest is closed
+  std::size_t Requests = 16;        ///< beyond that, status 503
+  std::size_t RequestsOfClient = 6; ///< beyond that, status 429
+  /// Total size of all bodies; beyond that, status 503.
   std::uint64_t BodyBytes = 16 << 20;
 
-  /// \name From the first byte that is awaited to the last
+  /// \name Time limits, from the first awaited byte to the last
   /// @{
   std::chrono::milliseconds Head{10'000};
-  std::chrono::milliseconds Body{10'000}; ///< and a second more for each MiB
+  std::chrono::milliseconds Body{10'000}; ///< plus one second per MiB
   std::chrono::milliseconds Answer{30'000};
-  /// For what is still sent while a request is refused: to close at once would
-  /// take the answer from the client.
+  /// For data that arrives after a request is rejected: closing immediately
+  /// could discard the response.
   std::chrono::milliseconds Linger{1'000};
   /// @}
 };
 
 class HttpServer {
 public:
-  /// Decides by the head alone, at once: an answer, or the work to do.
+  /// Decides by the head only, without blocking: a response, or work.
   using Admit =
       std::function<std::variant<HttpAnswer, HttpWork>(const HttpHead &)>;
-  /// The answer of this server itself, such as 431, about a request.
+  /// The response to an error of the protocol, such as 431.
   using Refuse =
       std::function<HttpAnswer(unsigned Status, const std::string &Why)>;
 
-  /// Names and values that every answer has.
+  /// Header fields of every response.
   using Fields = std::vector<std::pair<std::string, std::string>>;
 
-  /// Listens on \p Port of 127.0.0.1, 0 for a free one. Fails where the port is
-  /// in use or not allowed.
+  /// Listens on \p Port of 127.0.0.1, 0 for a free one. Fails if the port is in
+  /// use or not permitted.
   static Expected<std::unique_ptr<HttpServer>> listen(int Port, Fields Always,
                                                       Admit Decide, Refuse Say,
                                                       HttpLimits Most = {});
@@ -83,13 +83,14 @@ public:
 
   int port() const;
 
-  /// Answers until SIGHUP, SIGINT or SIGTERM, which count from before the call
-  /// of \p Announce on, or until stop(). \p OnEnd is then called before the
-  /// requests at work are waited for. A second signal ends the process at once.
+  /// Serves until SIGHUP, SIGINT or SIGTERM, which are handled from before the
+  /// call of \p Announce, or until stop(). Then calls \p OnEnd and waits for
+  /// the requests in progress. A second signal terminates the process
+  /// immediately.
   void serve(const std::function<void()> &Announce,
              const std::function<void()> &OnEnd);
 
-  /// From any thread.
+  /// May be called on any thread.
   void stop();
 
   struct Parts;

@@ -1,4 +1,4 @@
-/// Which call of a page is its newest.
+/// Tracks the newest call of each page.
 #pragma once
 
 #include <atomic>
@@ -11,15 +11,15 @@
 
 namespace vorion::splat {
 
-/// Who waits for an answer.
+/// The receiver of a response.
 struct Asker {
-  std::string Page; ///< a name that no other page has
-  /// Whether nobody waits any more; asked every few milliseconds.
+  std::string Page; ///< a unique name
+  /// Whether the receiver is gone; polled every few milliseconds.
   std::function<bool()> HasLeft;
 };
 
-/// A page that has asked for something newer does not want what it asked for
-/// before. Pages do not hinder each other.
+/// A newer call of a page supersedes its earlier calls. Pages do not affect
+/// each other.
 class PageCalls {
 public:
   class Call {
@@ -34,12 +34,12 @@ public:
     uint64_t Own;
   };
 
-  /// The newest one of \p Page, until the next.
+  /// Starts a call of \p Page, which is the newest until the next one.
   Call begin(const std::string &Page);
 
 private:
   std::mutex Lock;
-  /// Of the pages that have calls.
+  /// Counters of the pages with calls.
   std::map<std::string, std::weak_ptr<std::atomic<uint64_t>>> Counts;
 };
 

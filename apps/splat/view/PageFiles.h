@@ -1,4 +1,4 @@
-/// The files of the page of `splat view`, which travel inside the program.
+/// The files of the page of `splat view`, embedded in the program.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@ namespace vorion::splat {
 
 struct PageFile {
   std::string_view Path; ///< "/view.js"; "/" for the page itself
-  std::string_view Type; ///< as HTTP has it
+  std::string_view Type; ///< media type
   std::string_view Text;
 };
 

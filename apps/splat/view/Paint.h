@@ -1,4 +1,4 @@
-/// Layers of a picture as colours.
+/// Conversion of picture layers to colours.
 #pragma once
 
 #include "device/TileWork.h"
@@ -10,18 +10,20 @@
 
 namespace vorion::splat {
 
-/// Bytes r, g, b, a of each pixel, and what the ends of the colours stand for.
+/// Bytes r, g, b, a of each pixel, and the values at both ends of the colour
+/// scale.
 struct Painted {
   std::string Rgba;
   double Low = 0, High = 0;
-  std::string Unit; ///< empty where the colours are the picture's own
+  std::string Unit; ///< empty for the picture itself
 };
 
 Painted paintPicture(const Image &I);
-/// The mean depth of what is seen, dark where it is near, from the nearest to
-/// the farthest; grey where nothing is.
+/// Expected depth, from dark (nearest) to light (farthest); grey for empty
+/// pixels.
 Painted paintDepth(const DepthMap &D);
-/// The largest difference of a channel from \p Reference, 3 values a pixel.
+/// The largest difference of a channel from \p Reference, which has 3 values
+/// per pixel.
 Painted paintError(const Image &I, const std::vector<double> &Reference);
 Painted paintHeat(const std::vector<TileWork> &Tiles, Heat H, int Width,
                   int Height);

@@ -1,4 +1,4 @@
-/// What the page of `splat view` asks for.
+/// The requests of the page of `splat view`.
 #pragma once
 
 #include "accuracy/Setting.h"
@@ -15,18 +15,17 @@
 
 namespace vorion::splat {
 
-/// Largest side of a picture of the page, pixels: more takes the simulated
-/// machine minutes.
+/// Largest side of a picture, pixels: larger pictures take minutes to simulate.
 inline constexpr int MostViewed = 2048;
 
-/// Of the text of a request, bytes.
+/// Largest size of a request, bytes.
 inline constexpr std::size_t LargestViewRequest = 1 << 16;
 
-/// What is shown of a picture.
+/// The displayed layer of a picture.
 enum class Layer {
   Picture,
   Depth,
-  Error, ///< against the fp64 reference
+  Error, ///< compared with the fp64 reference
   List,
   Blends,
   Cycles,
@@ -36,30 +35,30 @@ inline constexpr std::array Layers{
     Layer::Picture, Layer::Depth,  Layer::Error,     Layer::List,
     Layer::Blends,  Layer::Cycles, Layer::Saturation};
 std::string_view name(Layer L);
-/// The heat map that it shows, if it is one.
+/// The heat map of the layer, if it is one.
 std::optional<Heat> heatOf(Layer L);
 
 struct ViewRequest {
   Camera View;
   Setting Chosen;
   Layer Shown = Layer::Picture;
-  bool Clock = false;   ///< with the cycles of the machine
-  bool Compare = false; ///< with the error against the fp64 reference
-  /// \name Of a pixel that is asked for
+  bool Clock = false;   ///< also compute the cycles of the machine
+  bool Compare = false; ///< also compute the error against the fp64 reference
+  /// \name Coordinates of a requested pixel
   /// @{
   int X = 0, Y = 0;
   /// @}
 };
 
-/// Reads JSON; errors say what is wrong with which key.
+/// Parses JSON; errors name the key.
 Expected<ViewRequest> parseViewRequest(std::string_view Text);
 
-/// That a newer request took the place of one: no fault, ask again.
+/// The error of a request that a newer request has superseded.
 Error superseded();
-/// Whether \p E is that.
+/// Whether \p E is such an error.
 bool isSuperseded(const Error &E);
 
-/// The options by which \p R is drawn of a scene whose file says \p D.
+/// The options of \p R for a scene whose file specifies \p D.
 RenderOptions optionsOf(const ViewRequest &R, const Drawing &D);
 
 } // namespace vorion::splat

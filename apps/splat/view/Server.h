@@ -1,4 +1,4 @@
-/// The server of `splat view`, for this computer alone.
+/// The server of `splat view`, accessible only from this computer.
 #pragma once
 
 #include "view/Session.h"
@@ -12,15 +12,15 @@ namespace vorion::splat {
 class Server {
 public:
   /// Listens on \p Port of 127.0.0.1, 0 for a free one. \p Shown must outlive
-  /// this. Fails where the port is in use.
+  /// the server. Fails if the port is in use.
   static Expected<std::unique_ptr<Server>> listen(int Port, Session &Shown);
   ~Server();
 
-  /// With the token.
+  /// The URL of the page, including the token.
   std::string address() const;
 
-  /// Answers until SIGHUP, SIGINT or SIGTERM, which count from before the call
-  /// of \p Announce on; a second one ends the process at once.
+  /// Serves until SIGHUP, SIGINT or SIGTERM, which are handled from before the
+  /// call of \p Announce. A second signal terminates the process immediately.
   void serve(const std::function<void()> &Announce);
 
 private:

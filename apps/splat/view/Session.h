@@ -1,4 +1,4 @@
-/// The device and the scene that `splat view` keeps between frames.
+/// The state of `splat view` between frames: device and scene.
 #pragma once
 
 #include "render/Renderer.h"
@@ -21,15 +21,15 @@
 
 namespace vorion::splat {
 
-/// A picture that the device has drawn.
+/// A picture that the device has rendered.
 struct DrawnView {
   uint64_t Scene = 0;
-  ViewRequest Request; ///< that it was first drawn for
+  ViewRequest Request; ///< the first request for it
   RenderResult Result;
-  nlohmann::ordered_json Effects; ///< what the view needs, and why
+  nlohmann::ordered_json Effects; ///< effects of the view with their reasons
 };
 
-/// What the page gets.
+/// The response to the page.
 struct ViewAnswer {
   nlohmann::ordered_json Facts;
   std::string Rgba; ///< rows from the top
@@ -40,10 +40,11 @@ public:
   struct Setup {
     std::string Device, Kernels;
     DeviceOptions Machine;
-    ReadOptions Reading;                   ///< of dropped scenes
-    std::vector<std::string> ReadingWords; ///< the same for `splat render`
-    std::vector<Camera> Cameras;           ///< as photographs have them
-    bool ThroughLens = false; ///< to begin with, where a camera has a choice
+    ReadOptions Reading;                   ///< for scenes that the page sends
+    std::vector<std::string> ReadingWords; ///< the same as options of `splat
+                                           ///< render`
+    std::vector<Camera> Cameras;           ///< with the lenses of photographs
+    bool ThroughLens = false; ///< initial state, for cameras with both
     int Width = 480, Height = 272;
   };
 
@@ -53,20 +54,19 @@ public:
   /// Device, scene, cameras and knobs, as JSON.
   std::string describe() const;
 
-  /// Draws what \p R asks for. What takes long, which is the clock and the
-  /// reference, is done for one call after the other, in the order in which
-  /// they came. It ends without an answer, which is an error, if \p From has
-  /// left or calls again.
+  /// Executes the request \p R. Slow parts (clock and reference) are executed
+  /// for one call at a time, in the order of calls. They end with an error if
+  /// \p From is gone or calls again.
   Expected<ViewAnswer> frame(const ViewRequest &R, const Asker &From);
 
-  /// Ends what takes long, now and later.
+  /// Cancels slow parts of current and future calls.
   void giveUp() { Ending = true; }
 
-  /// What a pixel is made of, as JSON.
+  /// The Gaussians of a pixel, as JSON.
   std::string pixel(const ViewRequest &R);
 
-  /// Shows the scene in \p Content, a file \p Name. If it is none, the error
-  /// says so and the old scene stays.
+  /// Replaces the scene by the file \p Name with \p Content. On an error the
+  /// old scene stays.
   Expected<Success> replace(std::string Name, const std::string &Content);
 
 private:
@@ -76,7 +76,7 @@ private:
 
   Expected<std::shared_ptr<const DrawnView>>
   drawn(const ViewRequest &R, const std::shared_ptr<const ShownScene> &S);
-  /// Needs the device's lock.
+  /// Requires the device lock.
   std::shared_ptr<const DrawnView> findDrawn(const ViewRequest &R,
                                              uint64_t Scene) const;
   Expected<DrawnView> drawNew(const ViewRequest &R, const ShownScene &S);
@@ -88,22 +88,23 @@ private:
   Judge Reference;
   Stopwatch Clock;
 
-  std::mutex ReplaceLock; ///< one scene is opened after the other
+  std::mutex ReplaceLock; ///< scenes are opened one at a time
   mutable std::mutex SceneLock;
-  std::shared_ptr<const ShownScene> Shown; ///< by this lock
+  std::shared_ptr<const ShownScene> Shown; ///< protected by SceneLock
 
   PageCalls Calls; ///< of frame()
   std::atomic<bool> Ending = false;
   FairLock DeviceLock;
-  /// \name By this lock
+  /// \name Protected by DeviceLock
   /// @{
   ProgramCache Programs;
   uint64_t Uploaded = 0; ///< number of the scene in Gaussians
   std::array<bool, MaxShDegree> UploadedBands{};
-  GaussianBuffers OnDevice;           ///< activated: no camera changes that
+  GaussianBuffers OnDevice;           ///< activated, which does not depend on
+                                      ///< the camera
   std::optional<ViewFacts> Facts;     ///< of all views of a scene so far
-  uint64_t FactsOf = 0;               ///< its number
-  const LensModel *FactsBy = nullptr; ///< of these views
+  uint64_t FactsOf = 0;               ///< number of this scene
+  const LensModel *FactsBy = nullptr; ///< lens of these views
   std::deque<std::shared_ptr<const DrawnView>> Kept; ///< newest first
   /// @}
 };

@@ -1,4 +1,4 @@
-/// A scene that is open in `splat view`.
+/// An open scene of `splat view`.
 #pragma once
 
 #include "cameras/Vector.h"
@@ -15,13 +15,13 @@ namespace vorion::splat {
 inline constexpr std::size_t LargestScene = std::size_t{1} << 30;
 
 struct ShownScene {
-  std::string Name; ///< for people: of its file
-  /// Where `splat render` finds it, and the options with which it reads it.
+  std::string Name; ///< name of its file, for display
+  /// The path and the reading options for `splat render`.
   std::string Path;
   std::vector<std::string> Words;
   SceneFile File;
-  Vector Up{};         ///< of the scene, a unit vector
-  uint64_t Number = 0; ///< from 1: of the scenes that were opened
+  Vector Up{};         ///< up direction, a unit vector
+  uint64_t Number = 0; ///< counts opened scenes from 1
 };
 
 } // namespace vorion::splat

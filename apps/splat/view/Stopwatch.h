@@ -1,6 +1,6 @@
-/// How long the machine takes for a view of `splat view`: by a process of its
-/// own, which finds the machine as new as `splat render --time` does. A frame
-/// after others would find caches and memory as they have left them.
+/// Measures the simulated time of a view of `splat view` in a separate process,
+/// which starts with a new machine, as `splat render --time` does. In this
+/// process, the state of caches and memory would depend on earlier frames.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -20,31 +20,31 @@
 
 namespace vorion::splat {
 
-/// What a frame took on the machine.
+/// The time of a frame on the machine.
 struct MachineTime {
   uint64_t Cycles = 0;
   double Milliseconds = 0;
   std::string On; ///< the machine and its clock (ClockedMachine.h)
-  /// By the names of the stages that have any.
+  /// Cycles by name of the stages.
   std::vector<std::pair<std::string, uint64_t>> Stages;
   std::vector<TileWork> Tiles;
 };
 
 class Stopwatch {
 public:
-  /// \p Words: of `splat render`, for the device.
+  /// \p Words: device options of `splat render`.
   Stopwatch(TemporaryFolder F, std::vector<std::string> Words,
             DeviceOptions Machine)
       : Folder(std::move(F)), DeviceWords(std::move(Words)),
         Machine(std::move(Machine)) {}
 
-  /// Measures the view and the setting of \p R; the last few are kept. Where
-  /// \p GiveUp says so on the way, the error is \c superseded().
+  /// Measures the view and the setting of \p R; the last few results are
+  /// cached. If \p GiveUp returns true, the error is \c superseded().
   Expected<std::shared_ptr<const MachineTime>>
   measure(const ShownScene &S, const ViewRequest &R,
           const std::function<bool()> &GiveUp);
 
-  /// A file for a scene that has none.
+  /// The file name for a scene without a file.
   std::string sceneFile(uint64_t Number) const;
 
 private:
@@ -59,7 +59,7 @@ private:
   std::vector<std::string> DeviceWords;
   DeviceOptions Machine;
   FairLock Lock;
-  std::deque<Kept> Last; ///< by the lock; newest first
+  std::deque<Kept> Last; ///< protected by Lock; newest first
 };
 
 } // namespace vorion::splat
