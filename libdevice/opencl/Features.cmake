@@ -7,7 +7,7 @@ set(VORION_OPENCL_EXTENSIONS
     cl_khr_local_int32_base_atomics cl_khr_local_int32_extended_atomics
     cl_khr_int64_base_atomics cl_khr_int64_extended_atomics
     cl_khr_il_program
-    cl_khr_fp16 cl_khr_fp64 cl_khr_subgroup_extended_types cl_khr_subgroup_non_uniform_vote cl_khr_subgroup_ballot
+    cl_khr_fp16 cl_khr_fp64 cl_khr_subgroups cl_khr_subgroup_extended_types cl_khr_subgroup_non_uniform_vote cl_khr_subgroup_ballot
     cl_khr_subgroup_non_uniform_arithmetic cl_khr_subgroup_shuffle cl_khr_subgroup_shuffle_relative
     cl_khr_subgroup_clustered_reduce cl_khr_subgroup_rotate
     cl_khr_extended_bit_ops cl_khr_integer_dot_product cl_khr_expect_assume)

@@ -42,7 +42,8 @@ static uchar *address(image_p image, int4 at) {
          at.x * image->_num_channels * image->_elem_size;
 }
 
-/* --- Texels: the bits of their channels as red, green, blue, alpha. */
+/* --- Texels: the bits of their channels as red, green, blue, alpha. Intensity
+   stands for all four, luminance for the first three. */
 
 #define LOAD_CHANNELS(TYPE)                                                    \
   bits.x = ((const TYPE *)from)[0];                                            \
@@ -52,10 +53,6 @@ static uchar *address(image_p image, int4 at) {
     bits.z = ((const TYPE *)from)[2];                                          \
     bits.w = ((const TYPE *)from)[3];                                          \
   }
-
-static int is_blue_first(image_p image) {
-  return image->_order == CLK_BGRA || image->_order == CLK_sBGRA;
-}
 
 static int is_srgb(image_p image) {
   return image->_order == CLK_sRGBA || image->_order == CLK_sBGRA;
@@ -79,11 +76,23 @@ static uint4 texel(image_p image, int4 at, int4 size) {
   default:
     LOAD_CHANNELS(uint)
   }
-  return is_blue_first(image) ? bits.zyxw : bits;
+  switch (image->_order) {
+  case CLK_BGRA:
+  case CLK_sBGRA:
+    return bits.zyxw;
+  case CLK_INTENSITY:
+    return bits.xxxx;
+  case CLK_LUMINANCE:
+    return bits.xxxw;
+  default:
+    return bits;
+  }
 }
 
 /* Formats without alpha are read with an alpha of 1. */
-static int opaque(image_p image) { return image->_num_channels < 4; }
+static int opaque(image_p image) {
+  return image->_num_channels < 4 && image->_order != CLK_INTENSITY;
+}
 
 static int4 extend_sign(uint4 bits, int bytes) {
   const int unused = 32 - 8 * bytes;
@@ -366,7 +375,7 @@ static void write_texel(image_p image, int4 at, uint4 bits, SHAPE) {
     return;
   uchar *to = address(image, at);
   const int channels = image->_num_channels;
-  if (is_blue_first(image))
+  if (image->_order == CLK_BGRA || image->_order == CLK_sBGRA)
     bits = bits.zyxw;
   switch (image->_elem_size) {
   case 1:

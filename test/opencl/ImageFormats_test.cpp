@@ -19,7 +19,16 @@ using vorion::test::TestDevice;
 namespace {
 
 unsigned channelsOf(cl_channel_order Order) {
-  return Order == CL_R ? 1 : Order == CL_RG ? 2 : 4;
+  switch (Order) {
+  case CL_R:
+  case CL_INTENSITY:
+  case CL_LUMINANCE:
+    return 1;
+  case CL_RG:
+    return 2;
+  default:
+    return 4;
+  }
 }
 
 unsigned bytesOf(cl_channel_type Type) {
@@ -117,6 +126,10 @@ std::array<double, 4> decodedTexel(const std::vector<uint8_t> &Texels,
   if (Format.image_channel_order == CL_BGRA ||
       Format.image_channel_order == SBgra)
     std::swap(Color[0], Color[2]);
+  if (Format.image_channel_order == CL_INTENSITY)
+    Color.fill(Color[0]);
+  if (Format.image_channel_order == CL_LUMINANCE)
+    Color[1] = Color[2] = Color[0];
   return Color;
 }
 
@@ -187,12 +200,15 @@ protected:
       return Format.image_channel_order == CL_DEPTH;
     });
     ASSERT_GE(Formats.size(), 11U);
-    for (const cl_channel_order Order : {SRgba, SBgra})
+    for (const auto &[Order, Types] : {std::pair(SRgba, 1),
+                                       {SBgra, 1},
+                                       {CL_INTENSITY, 6},
+                                       {CL_LUMINANCE, 6}})
       EXPECT_EQ(std::count_if(Formats.begin(), Formats.end(),
                               [&](const cl::ImageFormat &Format) {
                                 return Format.image_channel_order == Order;
                               }),
-                1);
+                Types);
   }
   TestDevice Device;
   cl::Program Program;
@@ -375,6 +391,43 @@ TEST_F(ImageFormats, EveryFormatIsFilledAsKernelsWriteIt) {
       ASSERT_EQ(BitsOf(Filled, I), BitsOf(Written, I))
           << nameOf(Format) << ", channel " << I % (Size / Bytes / Texels)
           << " of color " << I / (Size / Bytes / Texels);
+  }
+}
+
+/// Outside of an image, and on its edge, where a linear filter mixes its border
+/// with a texel.
+TEST_F(ImageFormats, BordersAreOpaqueWhereTexelsHaveNoAlpha) {
+  const cl::Program Program = Device.build(R"(
+constant sampler_t clamped = CLK_ADDRESS_CLAMP | CLK_FILTER_LINEAR;
+kernel void border(read_only image2d_t in, global float4 *out) {
+  out[0] = read_imagef(in, clamped, (float2)(-4, 0.5f));
+  out[1] = read_imagef(in, clamped, (float2)(0, 0.5f));
+  out[2] = read_imagef(in, clamped, (int2)(-1, 0));
+})");
+  for (const auto &[Order, IsOpaque] : {std::pair(CL_R, true),
+                                        {CL_RG, true},
+                                        {CL_RGBA, false},
+                                        {CL_BGRA, false},
+                                        {CL_INTENSITY, false},
+                                        {CL_LUMINANCE, true}}) {
+    std::vector<uint8_t> Bytes(
+        4 * channelsOf(static_cast<cl_channel_order>(Order)), 255);
+    const cl::Image2D Image(
+        Device.context(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+        cl::ImageFormat(static_cast<cl_channel_order>(Order), CL_UNORM_INT8), 2,
+        2, 0, Bytes.data());
+    const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 48);
+    cl::Kernel Kernel(Program, "border");
+    Kernel.setArg(0, Image);
+    Kernel.setArg(1, Out);
+    Device.run(Kernel, 1, 1);
+    const auto Colors = Device.download<float>(Out, 12);
+    for (const int Outside : {0, 8}) {
+      EXPECT_EQ(Colors[Outside], 0) << Order;
+      EXPECT_EQ(Colors[Outside + 3], IsOpaque ? 1 : 0) << Order;
+    }
+    EXPECT_EQ(Colors[4], 0.5F) << Order;
+    EXPECT_EQ(Colors[7], IsOpaque ? 1 : 0.5F) << Order;
   }
 }
 

@@ -295,6 +295,64 @@ TEST(Subgroups, FunctionsOfGroupsGoThroughAllSubgroups) {
         everyone);
 }
 
+/// A program sees it in the device's list, in kernels, and by the function that
+/// comes with it.
+TEST(Subgroups, TheExtensionOfTheBaseFunctionsIsOffered) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  const cl::Device Chosen = Device.context().getInfo<CL_CONTEXT_DEVICES>()[0];
+  EXPECT_NE((" " + Chosen.getInfo<CL_DEVICE_EXTENSIONS>() + " ")
+                .find(" cl_khr_subgroups "),
+            std::string::npos);
+  // The subgroups of a group take turns, whatever the extension promises.
+  constexpr cl_device_info IndependentProgress = 0x105D;
+  cl_bool Progress = CL_TRUE;
+  EXPECT_EQ(clGetDeviceInfo(Chosen(), IndependentProgress, sizeof(Progress),
+                            &Progress, nullptr),
+            CL_SUCCESS);
+  EXPECT_EQ(Progress, CL_FALSE);
+
+  using Query = decltype(&clGetKernelSubGroupInfo);
+  const auto ByName =
+      reinterpret_cast<Query>(clGetExtensionFunctionAddressForPlatform(
+          Chosen.getInfo<CL_DEVICE_PLATFORM>(), "clGetKernelSubGroupInfoKHR"));
+  ASSERT_NE(ByName, nullptr);
+  for (const char *Language : Languages) {
+    const cl::Program Program =
+        Device.build("#ifndef cl_khr_subgroups\n"
+                     "#error\n"
+                     "#endif\n"
+                     "#pragma OPENCL EXTENSION cl_khr_subgroups : enable\n"
+                     "kernel void f(global int *out) {\n"
+                     "  local int x[48];\n"
+                     "  int i = get_local_id(0);\n"
+                     "  x[i] = i;\n"
+                     "  sub_group_barrier(CLK_LOCAL_MEM_FENCE);\n"
+                     "  out[i] = x[i ^ 1] + 100 * get_sub_group_id();\n"
+                     "}\n",
+                     Language);
+    cl::Kernel Kernel(Program, "f");
+    const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 4 * 48);
+    Kernel.setArg(0, Out);
+    Device.run(Kernel, 48, 48);
+    const auto Values = Device.download<int32_t>(Out, 48);
+    for (int32_t I = 0; I < 48; ++I)
+      ASSERT_EQ(Values[I], (I ^ 1) + I / 16 * 100) << Language;
+
+    constexpr cl_uint MaxSize = 0x2033, Count = 0x2034;
+    const std::size_t Local[] = {10, 4};
+    for (const auto &[Question, Answer] :
+         {std::pair(MaxSize, 16U), {Count, 3U}})
+      for (const Query Function : {ByName, &clGetKernelSubGroupInfo}) {
+        std::size_t Value = 0;
+        EXPECT_EQ(Function(Kernel(), Chosen(), Question, sizeof(Local), Local,
+                           sizeof(Value), &Value, nullptr),
+                  CL_SUCCESS);
+        EXPECT_EQ(Value, Answer);
+      }
+  }
+}
+
 TEST(Subgroups, AGroupOfSoManySubgroupsHasALaneForEachWorkItem) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);

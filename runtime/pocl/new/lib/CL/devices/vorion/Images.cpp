@@ -19,24 +19,32 @@ constexpr std::array Types = {
     CL_SIGNED_INT8,    CL_SIGNED_INT16,   CL_SIGNED_INT32, CL_UNSIGNED_INT8,
     CL_UNSIGNED_INT16, CL_UNSIGNED_INT32, CL_HALF_FLOAT,   CL_FLOAT};
 constexpr std::array Orders = {CL_R, CL_RG, CL_RGBA};
+/// Of the types without integers alone.
+constexpr std::array Greys = {CL_INTENSITY, CL_LUMINANCE};
+constexpr std::array GreyTypes = {CL_SNORM_INT8,  CL_SNORM_INT16, CL_UNORM_INT8,
+                                  CL_UNORM_INT16, CL_HALF_FLOAT,  CL_FLOAT};
 /// Of CL_UNORM_INT8 alone.
 constexpr std::array OrdersOfBytes = {CL_BGRA, CL_sRGBA, CL_sBGRA};
 /// Behind all others, because only 2D images and their arrays have depths.
 constexpr std::array<cl_image_format, 2> Depths = {
     {{CL_DEPTH, CL_UNORM_INT16}, {CL_DEPTH, CL_FLOAT}}};
 
-/// The standard demands a third of these.
+/// The standard demands a quarter of these.
 constexpr auto Formats = [] {
   std::array<cl_image_format, Orders.size() * Types.size() +
+                                  Greys.size() * GreyTypes.size() +
                                   OrdersOfBytes.size() + Depths.size()>
       All{};
   size_t Count = 0;
-  for (const int Order : Orders)
-    for (const int Type : Types)
-      All[Count++] = {static_cast<cl_channel_order>(Order),
-                      static_cast<cl_channel_type>(Type)};
-  for (const int Order : OrdersOfBytes)
-    All[Count++] = {static_cast<cl_channel_order>(Order), CL_UNORM_INT8};
+  const auto Add = [&](const auto &Orders, const auto &Types) {
+    for (const int Order : Orders)
+      for (const int Type : Types)
+        All[Count++] = {static_cast<cl_channel_order>(Order),
+                        static_cast<cl_channel_type>(Type)};
+  };
+  Add(Orders, Types);
+  Add(Greys, GreyTypes);
+  Add(OrdersOfBytes, std::array{CL_UNORM_INT8});
   for (const cl_image_format &Depth : Depths)
     All[Count++] = Depth;
   return All;
