@@ -1,4 +1,4 @@
-/// Photographs with poses, to train from.
+/// Photographs with poses, for training.
 #pragma once
 
 #include "io/Cameras.h"
@@ -21,24 +21,25 @@ enum class CaptureFormat {
   Transforms
 };
 
-/// As reports have it: colmap-text, colmap-binary, nerf-synthetic, transforms.
+/// The name in reports: colmap-text, colmap-binary, nerf-synthetic, transforms.
 std::string_view name(CaptureFormat F);
 
-/// One photograph and from where it was taken.
+/// A photograph with its camera.
 struct CaptureView {
-  Camera Pose; ///< its name is the picture's, as the capture has it
-  /// Of the camera that took the picture. The pose's focal lengths and
-  /// principal point are its, too, but the pose is a pinhole: who uses the
-  /// picture undistorts it, or gives the pose this lens.
+  Camera Pose; ///< named after the picture in the capture
+  /// The lens of the photograph. Pose has the same focal lengths and principal
+  /// point, but is a pinhole: users of the picture must undistort it, or assign
+  /// this lens to the pose.
   CameraModel Optics;
   std::string Picture;  ///< the file
-  std::string Mask;     ///< the file that says which pixels count, or empty
-  bool HeldOut = false; ///< for evaluation only, never trained on
-  /// Which of the capture's points were found in it; few formats know.
+  std::string Mask;     ///< the file of the mask, or empty
+  bool HeldOut = false; ///< used only for evaluation
+  /// Indices of the capture's points that are visible in it; empty in most
+  /// formats.
   std::vector<uint32_t> Sees;
 };
 
-/// Points that came with the poses.
+/// The points of a capture.
 struct CapturePoints {
   std::vector<float> Positions; ///< 3 each, world units
   std::vector<uint8_t> Colours; ///< 3 each: r, g, b
@@ -46,42 +47,42 @@ struct CapturePoints {
   std::size_t size() const { return Colours.size() / 3; }
 };
 
-/// Axes are those of the file: nothing is turned or scaled. Cameras are x
-/// right, y down, z forward whatever the format has.
+/// Axes are those of the file, without rotation or scaling. Camera axes are x
+/// right, y down, z forward for all formats.
 struct Capture {
   CaptureFormat Format = CaptureFormat::ColmapBinary;
-  std::vector<CaptureView> Views; ///< sorted by name, byte by byte
-  CapturePoints Points;           ///< may be empty in a file of transforms
-  /// Views that have no picture, and are left out: captures are often passed
-  /// on in part.
+  std::vector<CaptureView> Views; ///< sorted by name (bytewise)
+  CapturePoints Points;           ///< may be empty for transforms.json
+  /// Number of skipped views without a picture: captures are often distributed
+  /// partially.
   std::size_t WithoutPicture = 0;
   std::size_t masked() const; ///< views with a mask
-  /// Views whose photograph is no pinhole's, by lens or rolling shutter.
+  /// Number of views with lens distortion or rolling shutter.
   std::size_t distorted() const;
-  /// Those of them that cannot be undistorted: spheres and rolling shutters.
+  /// Number of these that cannot be undistorted: spheres and rolling shutters.
   std::size_t photographsAlone() const;
-  /// What decided which views are held out, for people.
+  /// The criterion for held-out views, as text.
   std::string HeldOutBy;
 
   std::size_t heldOut() const;
 };
 
-/// The centre of the training cameras and how far the farthest one is from it:
-/// 0 where fp32 would not tell them apart.
+/// The centre of the training cameras and the largest distance from it: 0 if
+/// the positions are equal in fp32.
 struct CameraRing {
   std::array<double, 3> Centre{};
   double Radius = 0;
 
-  /// What learning rates and density control measure lengths by.
+  /// The unit of length of learning rates and density control.
   double extent() const { return 1.1 * Radius; }
 };
 CameraRing cameraRing(const Capture &C);
 
-/// Every so many-th view by name is held out, the first one included.
+/// Default interval of held-out views, sorted by name, from the first view on.
 inline constexpr std::size_t HoldOutEvery = 8;
 
-/// Which pixels count: all, those that are not transparent, or those that mask
-/// files say.
+/// The pixels that are used: all, those that are not transparent, or those of
+/// mask files.
 enum class MaskSource { None, Alpha, Files };
 constexpr std::string_view name(MaskSource M) {
   return M == MaskSource::None    ? "none"
@@ -89,62 +90,58 @@ constexpr std::string_view name(MaskSource M) {
                                   : "files";
 }
 
-/// Which picture of a capture's camera is meant: the photograph as it is, or
-/// what a pinhole would have taken.
+/// The picture of a capture's camera: the original photograph, or the
+/// undistorted picture of a pinhole.
 enum class LensOf { Undistorted, Photograph };
 
-/// What who reads a capture may choose.
+/// Options for reading a capture.
 struct CaptureOptions {
-  /// Views to leave out, by name (with or without folder and ending).
+  /// Names of views to skip (with or without folder and extension).
   std::vector<std::string> Exclude;
-  /// Whether pictures and points may lie outside the capture's folder.
+  /// Whether pictures and points may be outside the capture's folder.
   bool AllowOutside = false;
   MaskSource Masks = MaskSource::None;
-  /// Which pictures it is read for. Of spheres and of rolling shutters there
-  /// are photographs alone.
+  /// The pictures to use. Spheres and rolling shutters need LensOf::Photograph.
   LensOf Pictures = LensOf::Undistorted;
-  /// Every so many-th view by name is held out, 0: none. Without it the capture
-  /// decides, or HoldOutEvery.
+  /// Interval of held-out views, sorted by name; 0: none. Default: that of the
+  /// capture, or HoldOutEvery.
   std::optional<unsigned> HoldOut = std::nullopt;
 };
 
 /// Reads the capture at \p Path, a folder or a transforms.json:
-/// - `sparse/0`, `sparse` or the folder itself with COLMAP's cameras, images
-///   and points3D as .bin or .txt; pictures in `images`;
-/// - `transforms_train.json`, whose `transforms_test.json`, if there, has the
-///   views to hold out;
-/// - `transforms.json`.
-/// Pictures are looked at, not decoded: each must be there once, of the size
-/// that its camera says, and inside the folder unless \p Options allow more.
-/// Views whose picture is missing are left out and counted.
+/// - `sparse/0`, `sparse` or the folder itself contains COLMAP's cameras,
+///   images and points3D as .bin or .txt, and `images` the pictures;
+/// - `transforms_train.json`; `transforms_test.json`, if present, contains the
+///   held-out views;
+/// - `transforms.json`. Pictures are not decoded, but each must exist once,
+///   have the size of its camera, and be inside the folder unless \p Options
+///   allow otherwise. Views without a picture are skipped and counted.
 ///
-/// With \c MaskSource::Files the mask of the picture NAME is what `mask_path`
-/// of its frame names, or else the first of masks/NAME.png, masks/NAME and
-/// masks/NAME with .png as its ending; a picture without one counts whole.
+/// With \c MaskSource::Files, the mask of the picture NAME is `mask_path` of
+/// its frame, or the first of masks/NAME.png, masks/NAME, and masks/NAME with
+/// the extension .png. A picture without a mask is used completely.
 Expected<Capture> readCapture(const std::string &Path,
                               const CaptureOptions &Options = {});
 
-/// The poses of a capture, for who needs no picture and no point.
+/// The poses of a capture, without pictures and points.
 struct CaptureCameras {
   CaptureFormat Format = CaptureFormat::ColmapBinary;
-  std::vector<Camera> Cameras;    ///< sorted by name, byte by byte
-  std::vector<std::string> Files; ///< what they were read from
+  std::vector<Camera> Cameras;    ///< sorted by name (bytewise)
+  std::vector<std::string> Files; ///< the files that were read
 };
 
-/// Reads them from where readCapture would, from a folder that holds COLMAP's
-/// files alone, or from one of COLMAP's files. A picture is looked at only
-/// where a file of transforms says no size. Their lenses are pinholes, or by
-/// \p Of those of the photographs.
+/// Reads them from the same inputs as readCapture, from a folder with only
+/// COLMAP's files, or from one of COLMAP's files. Pictures are opened only if
+/// transforms.json specifies no size. Lenses are pinholes, or those of the
+/// photographs, as \p Of selects.
 Expected<CaptureCameras> readCaptureCameras(const std::string &Path,
                                             LensOf Of = LensOf::Undistorted);
 
-/// The files at \p Path that readCapture or readCaptureCameras read, with the
-/// pictures, masks and points that are there, whatever their options; \p Path
-/// alone where no capture is.
+/// The files at \p Path that readCapture or readCaptureCameras may read, with
+/// all existing pictures, masks and points; only \p Path if it is no capture.
 std::vector<std::string> captureFiles(const std::string &Path);
 
-/// Whether \p Path is a folder or file that readCapture would take, as far as
-/// names tell.
+/// Whether \p Path looks like an input of readCapture, by file names.
 bool isCapture(const std::string &Path);
 
 } // namespace vorion::splat

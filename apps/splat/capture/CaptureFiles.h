@@ -1,4 +1,4 @@
-// Where a capture's files are, whatever its format.
+// Locations of a capture's files in all formats.
 #pragma once
 
 #include "capture/Capture.h"
@@ -10,12 +10,12 @@ namespace vorion::splat {
 
 bool fileExists(const std::filesystem::path &P);
 
-/// What is at a path, and where its files are.
+/// The format of a capture, and the locations of its files.
 struct Location {
   CaptureFormat Format = CaptureFormat::ColmapBinary;
-  /// Folder of COLMAP's files, or the file of transforms.
+  /// Folder of COLMAP's files, or transforms.json.
   std::filesystem::path Model;
-  /// Folder that pictures' names start from.
+  /// Folder to which names of pictures are relative.
   std::filesystem::path Pictures;
 
   bool isColmap() const {
@@ -24,14 +24,13 @@ struct Location {
   }
 };
 
-/// The capture at \p Path, a folder or a file of transforms; none if there is
-/// none.
+/// The capture at \p Path, a folder or transforms.json; empty if there is none.
 std::optional<Location> findCapture(const std::filesystem::path &Path);
 
-/// The same where \p Path may be one of COLMAP's files.
+/// The same, but \p Path may also be one of COLMAP's files.
 std::optional<Location> findCameras(const std::filesystem::path &Path);
 
-/// The picture called \p Name, whose ending may be missing.
+/// The picture \p Name, with or without extension.
 std::filesystem::path pictureOf(const std::filesystem::path &Folder,
                                 const std::string &Name);
 
@@ -39,23 +38,24 @@ std::filesystem::path pictureOf(const std::filesystem::path &Folder,
 std::string maskOf(const std::filesystem::path &Masks,
                    const std::filesystem::path &Name);
 
-/// That \p Name, which \p File gives, leaves the folder it starts from; \p
-/// Remedy: what would help.
+/// The error that \p Name in \p File is outside its folder; \p Remedy is the
+/// suggested fix.
 Error isOutside(const std::string &File, const std::string &Name,
                 std::string_view Remedy);
 
-/// That it does not, unless \p Options allow it.
+/// Checks that \p Name in \p File is inside its folder, unless \p Options allow
+/// otherwise.
 Expected<Success> checkInside(const std::string &File, const std::string &Name,
                               const CaptureOptions &Options);
 
-/// Takes those without a picture out of \p Views, and counts them in \p C.
+/// Removes views without a picture from \p Views, and counts them in \p C.
 template <typename View>
 void leaveOutMissing(std::vector<View> &Views, Capture &C) {
   C.WithoutPicture += std::erase_if(
       Views, [](const View &V) { return !fileExists(V.Picture); });
 }
 
-/// The same, where some picture must be there.
+/// The same; an error if no picture exists.
 template <typename View>
 Expected<Success> leaveOutSome(std::vector<View> &Views, Capture &C) {
   const std::string First = Views.front().Picture;
@@ -66,13 +66,13 @@ Expected<Success> leaveOutSome(std::vector<View> &Views, Capture &C) {
   return Success{};
 }
 
-/// That a pinhole's picture can be made of that of \p V, if one is wanted. \p
-/// Kind: what \p File calls a view.
+/// Checks that the picture of \p V can be undistorted, if \p Options request
+/// it. \p Kind is the term for a view in \p File.
 Expected<Success> checkPinhole(const std::string &File, std::string_view Kind,
                                const CaptureView &V,
                                const CaptureOptions &Options);
 
-/// Adds the camera of \p V, which \p File has.
+/// Adds the camera of \p V from \p File.
 Expected<Success> addCamera(const std::string &File, CaptureView V, LensOf Of,
                             CaptureCameras &To);
 

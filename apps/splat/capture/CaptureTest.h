@@ -1,4 +1,4 @@
-/// What the tests of captures share.
+/// Helpers of the tests of captures.
 #pragma once
 
 #include "capture/testing/CaptureWriters.h"
@@ -9,7 +9,7 @@
 
 namespace vorion::splat::testing {
 
-/// A folder with \p Files, removed at its end.
+/// A temporary folder with \p Files, removed by the destructor.
 class CaptureFolder {
 public:
   explicit CaptureFolder(const Folder &Files) {
@@ -27,7 +27,7 @@ private:
   TestFolder Root;
 };
 
-/// \p Text with \p What, which must be there, replaced.
+/// \p Text with \p What, which must occur, replaced.
 inline std::string replaced(std::string Text, const std::string &What,
                             const std::string &With) {
   const std::size_t At = Text.find(What);

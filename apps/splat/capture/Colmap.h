@@ -1,4 +1,4 @@
-/// COLMAP's sparse models, text and binary.
+/// Parsers of COLMAP's sparse models, text and binary.
 #pragma once
 
 #include "capture/Capture.h"
@@ -6,28 +6,27 @@
 
 namespace vorion::splat {
 
-/// The three files of a model, and the names by which errors call them.
+/// The three files of a model, with their names in errors.
 struct ColmapFile {
   std::string Where;
   Bytes Content;
 };
 struct ColmapFiles {
   ColmapFile Cameras, Images, Points;
-  /// Where only poses are wanted, \c Points is not looked at.
+  /// Whether only poses are needed; \c Points is then ignored.
   bool PosesOnly = false;
 };
 
-/// A model: each view has its camera's intrinsics; pictures are not looked
-/// for, and \c Picture is empty.
+/// A model. Each view has the intrinsics of its camera; \c Picture is empty.
 struct ColmapModel {
   std::vector<CaptureView> Views; ///< in the file's order
   CapturePoints Points;
 };
 
-/// Reads cameras.bin, images.bin, points3D.bin. Refused: camera models that
-/// we have no lens for (by name), poses that are no rotation, images of unknown
-/// cameras, values that are not finite, files that are shorter or longer than
-/// they say, models without an image or a point.
+/// Parses cameras.bin, images.bin, points3D.bin. Errors: unsupported camera
+/// models (by name), invalid rotations, images of unknown cameras, values that
+/// are not finite, files whose length does not match their content, models
+/// without an image or a point.
 Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files);
 
 /// The same for cameras.txt, images.txt, points3D.txt; errors name the line.

@@ -1,4 +1,4 @@
-// Captures whose poses COLMAP found.
+// Captures with COLMAP models.
 #pragma once
 
 #include "capture/CaptureFiles.h"
@@ -9,11 +9,11 @@ namespace vorion::splat {
 Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
                              Capture &C);
 
-/// Adds its cameras alone.
+/// Adds only its cameras.
 Expected<Success> addColmapCameras(const Location &F, LensOf Of,
                                    CaptureCameras &To);
 
-/// Adds its files, and what they name as far as they can be read.
+/// Adds its files, and the files that these name, as far as they can be read.
 void addColmapFiles(const Location &F, std::vector<std::filesystem::path> &To);
 
 } // namespace vorion::splat

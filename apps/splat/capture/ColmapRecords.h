@@ -1,4 +1,4 @@
-/// What both encodings of a COLMAP model share: from records to views.
+/// Conversion of COLMAP records to views, for both encodings.
 #pragma once
 
 #include "capture/Colmap.h"
@@ -9,15 +9,15 @@
 
 namespace vorion::splat {
 
-/// A camera model that COLMAP knows, by the records of lens/.
+/// A camera model of COLMAP, from the records of lens/.
 struct ColmapCameraModel : ColmapLens {
-  const LensModel *Lens; ///< null where we have no such lens
+  const LensModel *Lens; ///< null if unsupported
 };
 std::span<const ColmapCameraModel> colmapCameraModels();
-/// Names of those that have a lens, for messages.
+/// Names of the supported models, for messages.
 std::string knownColmapModels();
 
-/// One image as stored: world to camera, quaternion w, x, y, z.
+/// A stored image: world to camera, quaternion w, x, y, z.
 struct ColmapImage {
   int64_t Id = 0;
   std::array<double, 4> Quaternion{};
@@ -26,11 +26,11 @@ struct ColmapImage {
   std::string Name;
 };
 
-/// Collects records and checks them; \p Where in each call is the file, with
-/// the line where it has lines.
+/// Collects and checks records. \p Where is the file, with the line number for
+/// text files.
 class ColmapBuilder {
 public:
-  /// That we have the lens of \p Model: asked before its parameters are read.
+  /// Checks that \p Model is supported, before its parameters are read.
   static Expected<Success> checkModel(const std::string &Where, int64_t Id,
                                       const ColmapCameraModel &Model);
   Expected<Success> addCamera(const std::string &Where, int64_t Id,
@@ -38,7 +38,8 @@ public:
                               double Height,
                               std::span<const double> Parameters);
   Expected<Success> addImage(const std::string &Where, const ColmapImage &I);
-  /// \p Track: ids of the images that see it; unknown ones are passed over.
+  /// \p Track: IDs of the images in which it is visible; unknown IDs are
+  /// ignored.
   Expected<Success> addPoint(const std::string &Where,
                              const std::array<double, 3> &Position,
                              const std::array<uint8_t, 3> &Colour,
@@ -48,7 +49,7 @@ public:
 
 private:
   std::map<int64_t, CaptureView> Cameras; ///< without pose and name
-  std::map<int64_t, std::size_t> ImageOf; ///< by id: place in the model
+  std::map<int64_t, std::size_t> ImageOf; ///< index in the model by ID
   ColmapModel Model;
 };
 

@@ -1,4 +1,4 @@
-/// Focal lengths and principal points as files of transforms have them.
+/// Focal lengths and principal points of transforms.json.
 #pragma once
 
 #include "io/Cameras.h"
@@ -10,31 +10,32 @@
 
 namespace vorion::splat {
 
-/// What is known of a camera before its picture's size is.
+/// Intrinsics of a camera whose picture size may be unknown.
 struct Intrinsics {
   struct Axis {
     std::optional<double> Focal;  ///< pixels
-    std::optional<double> Angle;  ///< field of view, radians; without Focal
+    std::optional<double> Angle;  ///< field of view, radians; if Focal is
+                                  ///< absent
     std::optional<double> Centre; ///< pixels
   };
   Axis X, Y;
-  bool IsSphere = false; ///< sees all around: it has no focal length
+  bool IsSphere = false; ///< full sphere, without focal length
 };
 
-/// \p Value, which \p Key has. The error's place is empty.
+/// The finite number \p Value of \p Key. The error has no location.
 Expected<double> finiteNumber(const nlohmann::json &Value,
                               const std::string &Key);
 
-/// Reads, of each axis, fl_x, or camera_angle_x in radians, or x_fov in
-/// degrees, and cx (fl_y and so on). What \p Frame has of an axis goes before
-/// what \p Document has. One axis may be without focal length: it has the
-/// other's. The error's place is empty.
+/// Reads for each axis fl_x, camera_angle_x in radians, or x_fov in degrees,
+/// and cx (fl_y and so on). Values of \p Frame override those of \p Document.
+/// If one axis has no focal length, that of the other is used. The error has no
+/// location.
 Expected<Intrinsics> readIntrinsics(const nlohmann::json &Frame,
                                     const nlohmann::json &Document,
                                     bool IsSphere);
 
-/// Completes \p C, whose width and height are there. Principal points that are
-/// not known lie in the middle.
+/// Completes \p C, whose width and height are set. Unknown principal points are
+/// set to the centre.
 void complete(Camera &C, const Intrinsics &I);
 
 } // namespace vorion::splat

@@ -1,4 +1,5 @@
-/// Pictures of lenses made those of pinholes, and which of their pixels count.
+/// Undistortion of photographs to pictures of pinholes, with the validity of
+/// pixels.
 #pragma once
 
 #include "io/Cameras.h"
@@ -9,26 +10,26 @@
 
 namespace vorion::splat {
 
-/// A picture of which some pixels are to be left out.
+/// A picture with a mask.
 struct MaskedPlane {
   Plane Picture;
-  /// 1 for each pixel that counts, else 0; empty where all do.
+  /// 1 for each valid pixel, otherwise 0; empty if all are valid.
   std::vector<uint8_t> Counts;
 };
 
-/// As outputs name the filter of \c undistorted.
+/// The name of the filter of \c undistorted in outputs.
 inline constexpr const char *LensFilter =
     "bilinear between 8-bit values, rounded once";
 
-/// What a pinhole with the focal lengths and principal point of \p C would have
-/// taken in place of \p From, which a camera with the lens \p L took. Colours
-/// are weighed by their alpha. A pixel counts where all that it is made of
-/// counts: not outside \p From, and not where the lens folds back.
+/// Undistorts \p From, taken with the lens \p L, to the picture of a pinhole
+/// with the focal lengths and principal point of \p C. Colours are weighted by
+/// alpha. A pixel is valid if all its source pixels are, if it is inside \p
+/// From, and if it is not beyond the fold of the lens.
 MaskedPlane undistorted(const MaskedPlane &From, const Camera &C,
                         const CameraModel &L);
 
-/// Of the pixels of a picture of \p Width x \p Height that \p shrink makes:
-/// those count that are made of pixels that count alone.
+/// The mask of a picture of \p Width x \p Height made by \p shrink: a pixel is
+/// valid if all its source pixels are.
 std::vector<uint8_t> shrinkCounts(const std::vector<uint8_t> &Counts,
                                   std::size_t FromWidth, std::size_t FromHeight,
                                   int Width, int Height);

@@ -1,5 +1,6 @@
-/// What the fuzzers of captures call, and a test replays: any bytes give
-/// something whole or an error of one line; otherwise the program aborts.
+/// Targets of the capture fuzzers, also replayed by a test. Any input must
+/// yield a complete result or an error of one line; otherwise the program
+/// aborts.
 #pragma once
 
 #include "io/Bytes.h"
@@ -10,8 +11,8 @@
 
 namespace vorion::splat::fuzz {
 
-/// A COLMAP model: a byte that says whether it is text, then cameras, images
-/// and points, each after its size in 16 bits.
+/// A COLMAP model: a byte that is 1 for text, then cameras, images and points,
+/// each preceded by its size in 16 bits.
 void readColmap(Bytes Input);
 /// A transforms.json, and a point cloud.
 void readTransforms(Bytes Input);
@@ -20,7 +21,7 @@ void readPhoto(Bytes Input);
 /// An OpenEXR picture.
 void readExr(Bytes Input);
 
-/// Small whole inputs, by name.
+/// Small valid inputs, by name.
 using Seeds = std::vector<std::pair<std::string, std::string>>;
 Seeds colmapSeeds();
 Seeds transformsSeeds();

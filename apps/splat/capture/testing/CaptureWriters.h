@@ -1,5 +1,5 @@
-/// Small captures of every format, for tests only, written apart from the
-/// readers.
+/// Writers of small captures in every format, for tests only, independent of
+/// the readers.
 #pragma once
 
 #include "scene/testing/SceneWriters.h"
@@ -11,7 +11,7 @@
 
 namespace vorion::splat::testing {
 
-/// What a capture of a test holds. Poses are COLMAP's: world to camera.
+/// The content of a test capture. Poses are world to camera, as in COLMAP.
 struct SampleCapture {
   struct View {
     std::string Name;
@@ -21,7 +21,7 @@ struct SampleCapture {
   struct Point {
     std::array<double, 3> Position{};
     std::array<uint8_t, 3> Colour{};
-    /// Views, for COLMAP's tracks.
+    /// Indices of views, for COLMAP's tracks.
     // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
     std::vector<std::size_t> SeenBy{};
   };
@@ -31,26 +31,26 @@ struct SampleCapture {
   std::vector<Point> Points;
 };
 
-/// \p Views cameras on a circle about the origin that look at it, 12 points
-/// that each two of them see; names a0.png, a1.png, ...
+/// \p Views cameras on a circle around the origin that look at it, and 12
+/// points, each visible in two of them; names a0.png, a1.png, ...
 SampleCapture sampleCapture(std::size_t Views = 10);
 
-/// sparse/0/{cameras,images,points3D}.bin or .txt and images/, each picture of
-/// one colour.
+/// sparse/0/{cameras,images,points3D}.bin or .txt, and images/ with pictures of
+/// one colour each.
 Folder colmapBinaryOf(const SampleCapture &C);
 Folder colmapTextOf(const SampleCapture &C);
 /// transforms.json with fl_x, and the pictures.
 Folder transformsOf(const SampleCapture &C);
-/// transforms_train.json and transforms_test.json (of the last two views) with
-/// camera_angle_x, names without their ending.
+/// transforms_train.json and transforms_test.json (the last two views) with
+/// camera_angle_x, names without extension.
 Folder nerfSyntheticOf(const SampleCapture &C);
 
-/// The points as a binary PLY, as transforms.json may name one.
+/// The points as a binary PLY, for transforms.json.
 std::string pointCloudOf(const SampleCapture &C);
 
 /// An 8-bit RGBA PNG.
 std::string pngOf(int Width, int Height, const std::string &Rgba);
-/// A JPEG of the colours of \p Rgba, nearly lossless.
+/// A nearly lossless JPEG of the colours of \p Rgba.
 std::string jpegOf(int Width, int Height, const std::string &Rgba);
 
 } // namespace vorion::splat::testing

@@ -1,4 +1,4 @@
-/// What pictures without a scene score: what a trained scene has to beat.
+/// PSNR of pictures that need no scene, as baselines of a trained scene.
 #pragma once
 
 #include "train/data/TrainingSet.h"
@@ -9,13 +9,13 @@ namespace vorion::splat {
 
 /// Means over held-out views of the PSNR of 8-bit values, dB.
 struct Baselines {
-  double Constant = 0; ///< the training pictures' mean colour everywhere
-  double Mean = 0;     ///< their mean, pixel by pixel
-  double BestView = 0; ///< of each, the training picture that is most like it
+  double Constant = 0; ///< mean colour of the training pictures
+  double Mean = 0;     ///< mean of the training pictures, per pixel
+  double BestView = 0; ///< most similar training picture for each
 };
 
-/// Training pictures are brought to the size of the view that they are compared
-/// with by area average. None where no view is held out.
+/// Training pictures are resized by area averaging to the held-out view. Empty
+/// if no view is held out.
 std::optional<Baselines> baselinesOf(const TrainingSet &Set);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// How deep a capture's points are in a training picture.
+/// Depths of a capture's points in a training picture.
 #pragma once
 
 #include "capture/Capture.h"
@@ -8,10 +8,10 @@
 
 namespace vorion::splat {
 
-/// Those of \p Points numbered \p Sees, in the pixels where \p Pose, a pinhole,
-/// shows them, by pixel and then by depth. Left out is what is behind the
-/// camera or beside the picture, and where \p Counts, if it is not empty, has a
-/// 0.
+/// The depths of the \p Points with indices \p Sees in the picture of \p Pose,
+/// a pinhole, sorted by pixel and then by depth. Points behind the camera or
+/// outside the picture, and pixels with a 0 in \p Counts (if not empty), are
+/// skipped.
 std::vector<DepthPoint> depthPoints(const Camera &Pose,
                                     const CapturePoints &Points,
                                     const std::vector<uint32_t> &Sees,

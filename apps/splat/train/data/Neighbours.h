@@ -7,8 +7,9 @@
 namespace vorion::splat {
 
 /// For each of the points \p Positions (3 floats each), the mean distance to
-/// the nearest \p Count others; fewer points than that give the mean over what
-/// there is, one point 0. Exact, in double; the result depends on no order.
+/// the nearest \p Count others, or to all others if there are fewer; 0 for a
+/// single point. Exact, in double precision, and independent of the order of
+/// points.
 std::vector<double> meanNeighbourDistances(const std::vector<float> &Positions,
                                            std::size_t Count = 3);
 

@@ -1,4 +1,4 @@
-/// The random numbers of kernels/philox.h for the host, and what they are for.
+/// The random numbers of kernels/philox.h for the host, and their uses.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// The Gaussians that training starts from.
+/// The initial Gaussians of training.
 #pragma once
 
 #include "capture/Capture.h"
@@ -11,25 +11,27 @@ namespace vorion::splat {
 struct StartOptions {
   uint64_t Seed = 0;
   int ShDegree = 3;
-  /// Of random points, and at most so many of the capture's (evenly spread
-  /// over their list).
+  /// Number of random points, and maximum number of the capture's points
+  /// (evenly sampled from their list).
   std::size_t Most = 0;
   double Opacity = 0.1;
-  double Scale = 1; ///< times the neighbours' distance
+  double Scale = 1; ///< factor of the neighbours' distance
 };
 
-/// Random points where a capture has none (VORION: synthetic captures).
+/// Number of random points for captures without points (VORION: synthetic
+/// captures).
 inline constexpr std::size_t RandomPoints = 100000;
-/// They are uniform within this of the origin along each axis.
+/// They are uniformly distributed within this distance from the origin along
+/// each axis.
 inline constexpr double RandomReach = 1.3;
 
-/// Views of \p C in whose picture the middle of the random points lies.
+/// Number of views of \p C that contain the centre of the random points.
 std::size_t viewsOfRandomPoints(const Capture &C);
 
-/// A round Gaussian at each point of \p C, or at random points where it has
-/// none: scale by the mean distance to the three nearest others (Kerbl et al.
-/// 2023 say so; their code takes the root of the mean square), colour that of
-/// the point (grey where random). The same on every host.
+/// An isotropic Gaussian at each point of \p C, or at random points if it has
+/// none. The scale is the mean distance to the three nearest points (as in the
+/// text of Kerbl et al. 2023; their code uses the root mean square), the colour
+/// that of the point (grey for random points). The same on every host.
 Scene startingScene(const Capture &C, const StartOptions &O);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// The pictures of a capture as training uses them.
+/// The pictures of a capture, prepared for training.
 #pragma once
 
 #include "capture/Capture.h"
@@ -10,32 +10,34 @@
 
 namespace vorion::splat {
 
-/// A view at its training size.
+/// A view at training size.
 struct TrainView {
   Camera Pose;
-  Photo Picture; ///< 0 where a pixel does not count
-  /// 1 for each pixel that counts, else 0; empty where all do.
+  Photo Picture; ///< 0 at masked pixels
+  /// 1 for each pixel that is used, otherwise 0; empty if all are used.
   std::vector<uint8_t> Counts;
-  /// Of each pixel, for another background than the picture's; empty where it
-  /// was not asked for, or where all are opaque.
+  /// Alpha of each pixel, to change the background of the picture; empty if not
+  /// requested, or if all pixels are opaque.
   std::vector<uint8_t> Alpha;
-  /// If asked for (DepthPoints.h).
+  /// If requested (DepthPoints.h).
   // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
   std::vector<DepthPoint> Depths{};
 };
 
-/// \c Picture of \p V, which lies over \p Was, over \p Is, in 8 bits.
+/// \c Picture of \p V, whose background is \p Was, over the background \p Is,
+/// in 8 bits.
 Photo over(const TrainView &V, const std::array<float, 3> &Was,
            const std::array<float, 3> &Is);
 
-/// How pictures are loaded.
+/// Options for loading pictures.
 struct LoadOptions {
-  int Downscale = 1; ///< times smaller (capture/Photo.h says how)
+  int Downscale = 1; ///< downsampling factor (capture/Photo.h)
   std::array<float, 3> Background{};
-  MaskSource Masks = MaskSource::None; ///< as the capture was read
+  MaskSource Masks = MaskSource::None; ///< those of CaptureOptions
   bool KeepAlpha = false;
   bool KeepDepths = false;
-  /// Photographs stay as they are, and poses get their lenses.
+  /// LensOf::Photograph keeps the original photographs, and sets the lenses of
+  /// poses.
   LensOf Pictures = LensOf::Undistorted;
 };
 
@@ -45,12 +47,13 @@ struct TrainingSet {
   std::vector<Camera> cameras() const;
   /// Width and height of the largest picture.
   std::pair<int, int> largest() const;
-  /// Points whose depth is known, in all training pictures.
+  /// Number of points with a known depth in all training pictures.
   std::size_t depths() const;
 };
 
-/// Decodes the pictures of \p C, undistorts them if they are to be
-/// (capture/Undistort.h), and makes them smaller over the background.
+/// Decodes the pictures of \p C, undistorts them if requested
+/// (capture/Undistort.h), composites them over the background, and downsamples
+/// them.
 Expected<TrainingSet> loadTrainingSet(const Capture &C, const LoadOptions &O);
 
 } // namespace vorion::splat

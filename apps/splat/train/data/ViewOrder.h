@@ -1,4 +1,4 @@
-/// Which view is trained on when.
+/// The order of training views.
 #pragma once
 
 #include <cstddef>
@@ -7,22 +7,22 @@
 
 namespace vorion::splat {
 
-/// Rounds in each of which every view comes once, in random order. A view
-/// depends on the seed, the number of views and its place only, so a run
-/// that goes on from a checkpoint sees what an unbroken one sees.
+/// Each round contains every view once, in random order. The order depends only
+/// on the seed and the number of views, so a run that continues from a
+/// checkpoint uses the same views as an uninterrupted run.
 class ViewOrder {
 public:
   ViewOrder(std::size_t ViewCount, uint64_t RandomSeed)
       : Count(ViewCount), Seed(RandomSeed) {}
 
-  /// The \p Place th view of a run, from 1: with one view an iteration, that of
-  /// iteration \p Place.
+  /// The view with number \p Place of a run, from 1: with one view per
+  /// iteration, that of iteration \p Place.
   std::size_t at(uint64_t Place);
 
 private:
   std::size_t Count;
   uint64_t Seed;
-  std::size_t Round = ~std::size_t{0}; ///< that \c Order is of
+  std::size_t Round = ~std::size_t{0}; ///< the round of \c Order
   std::vector<std::size_t> Order;
 };
 

@@ -1,4 +1,4 @@
-/// The optimiser's step on the device.
+/// The optimizer step on the device.
 #pragma once
 
 #include "train/optimize/DeviceScene.h"
@@ -7,20 +7,20 @@
 namespace vorion::splat {
 
 ProgramSpec adamProgram(MomentsOn Where = MomentsOn::Device);
-/// For weights of opacities and scales in the loss.
+/// For opacity and scale regularization.
 ProgramSpec regularizeProgram();
 
 constexpr bool isRegularized(const TrainSettings &S) {
   return S.OpacityWeight > 0 || S.ScaleWeight > 0;
 }
-/// Adds to \p Gradients those of the weights of opacities and scales.
+/// Adds the gradients of opacity and scale regularization to \p Gradients.
 void regularize(Launcher &L, const TrainSettings &Settings,
                 const DeviceScene &S, const PlanePair &Gradients);
 
-/// Steps all parameters of \p S by their \p Gradients, of the same layout:
-/// step \p Iteration (from 1) with the rates of \p Settings, positions times
-/// \p Extent. Bands above \p ActiveDegree, whose gradients would be 0 and whose
-/// moments are, are left alone.
+/// Step \p Iteration (from 1) of all parameters of \p S by \p Gradients of the
+/// same layout, with the rates of \p Settings; that of positions is multiplied
+/// by \p Extent. Bands above \p ActiveDegree, whose gradients and moments are
+/// 0, are skipped.
 void stepAdam(Launcher &L, const TrainSettings &Settings, DeviceScene &S,
               const PlanePair &Gradients, unsigned Iteration, double Extent,
               int ActiveDegree);

@@ -1,4 +1,4 @@
-/// Density control on the device: clones, splits, drops, resets of opacity.
+/// Density control on the device: cloning, splitting, pruning, opacity resets.
 #pragma once
 
 #include "render/Sorter.h"
@@ -9,32 +9,32 @@
 
 namespace vorion::splat {
 
-/// Adds up views (kernels/batch.cl).
+/// Sums views (kernels/batch.cl).
 ProgramSpec batchProgram();
-/// The programs that density control runs; scan and sort among them.
+/// The programs of density control, including scan and sort.
 std::vector<ProgramSpec> densityPrograms();
 
-/// What one view gives density control to note.
+/// The results of a view for the statistics of density control.
 struct SeenView {
   cl::Buffer Records;     ///< splat_gaussian of each Gaussian
-  cl::Buffer Depths;      ///< their keys: CULLED or above where not seen
-  cl::Buffer Gradients;   ///< planes of floats, among them those by
+  cl::Buffer Depths;      ///< their keys: CULLED or above if invisible
+  cl::Buffer Gradients;   ///< planes of floats, which include gradients by
   uint32_t MeanPlane = 0; ///< the projected mean, px: this and the next
   int Width = 0, Height = 0;
 };
 
-/// What was noted since the last change; part of a checkpoint.
+/// The statistics since the last change; part of a checkpoint.
 struct DensityNotes {
   std::vector<float> GradientSums;
   std::vector<uint32_t> Views;
   std::vector<float> Radii;
 };
 
-/// What a change did.
+/// The result of a change.
 struct DensityChange {
   uint32_t Before = 0, After = 0;
-  /// Of those before, how many no picture gave a gradient since the change
-  /// before this one. Classic density control alone counts them.
+  /// Number of Gaussians before the change that have received no gradient since
+  /// the previous change. Only classic density control counts them.
   uint32_t WithoutGradient = 0;
 };
 
@@ -45,25 +45,25 @@ public:
       : Launch(Launch), Settings(Rules), Seed(RandomSeed), Extent(CameraExtent),
         Sort(Launch) {}
 
-  /// Forgets everything; \p Count Gaussians from now on.
+  /// Resets the statistics for \p Count Gaussians.
   void restart(uint32_t Count);
   void note(const SeenView &V, uint32_t Count);
-  /// What \c note would add to nothing, for another process, whose \c merge has
-  /// the effect of \c note to the bit.
+  /// The statistics of one view, for another process, whose \c merge is
+  /// bit-identical to \c note.
   DensityNotes noteAlone(const SeenView &V, uint32_t Count);
   void merge(const DensityNotes &OfAView);
-  /// Clones, splits and drops by what was noted, and begins to note anew.
-  /// Moments of what is kept are kept; new Gaussians begin with 0. The random
-  /// numbers depend on seed, iteration and the Gaussian's identity only.
+  /// Clones, splits and prunes by the statistics, and resets them. Moments of
+  /// remaining Gaussians are kept; those of new Gaussians are 0. Random numbers
+  /// depend only on seed, iteration and the identity of the Gaussian.
   DensityChange densify(DeviceScene &S, unsigned Iteration);
-  /// Opacities down to at most Settings.ResetOpacity, their moments to 0.
+  /// Limits opacities to Settings.ResetOpacity, and sets their moments to 0.
   void resetOpacity(DeviceScene &S);
 
   DensityNotes save(uint32_t Count) { return download(Noted, Count); }
   void restore(const DensityNotes &Notes) { Noted = upload(Notes); }
 
 private:
-  /// On the device.
+  /// Statistics on the device.
   struct Notebook {
     cl::Buffer GradientSums, Views, Radii;
   };

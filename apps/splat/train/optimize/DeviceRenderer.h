@@ -1,4 +1,5 @@
-/// Forward and back on the device: by rasterizer and cores, or the cores alone.
+/// Forward and backward pass on the device, with rasterizer and cores or only
+/// with cores.
 #pragma once
 
 #include "render/Backward.h"
@@ -9,33 +10,33 @@
 
 namespace vorion::splat {
 
-/// What blends and goes back.
+/// The path of blending and of the backward pass.
 struct Blender {
   Blender(Path P) : Kind(P) {}
   Blender(Path P, unsigned SimtTile, unsigned SimtGroup)
       : Kind(P), SimtTile(SimtTile), SimtGroup(SimtGroup) {}
 
   Path Kind;
-  /// Of the cores alone (RenderOptions); going back has groups of 16.
+  /// For the path `simt` (RenderOptions); the backward pass has groups of 16.
   unsigned SimtTile = 16, SimtGroup = 256;
 };
 
 class DeviceRenderer : public GradientRenderer {
 public:
-  /// How pictures are drawn beside the rules.
+  /// Rendering options besides the rules.
   struct Look {
     std::array<float, 3> Background{};
-    bool Several = false;     ///< setBackground() will follow
+    bool Several = false;     ///< whether setBackground() will be called
     bool Antialiased = false; ///< scene/Drawing.h
     /// \name The cameras
     /// @{
     const LensModel *Optics = CameraModel().Model;
     bool Rolling = false;
     Spread Through = Spread::Jacobian;
-    ViewFacts Facts{}; ///< those that need no scene
+    ViewFacts Facts{}; ///< those that do not depend on the scene
     /// @}
   };
-  /// Renders by the rules of \p Convention, support `exact`.
+  /// Renders with the rules \p Convention and the support `exact`.
   DeviceRenderer(Launcher &Launch, Rules Convention, const Blender &By,
                  const BackwardOptions &Backward, const Look &How);
 
@@ -51,7 +52,7 @@ public:
       Back->forget();
   }
 
-  /// Pairs of every tile of the last picture; copied from the device.
+  /// Number of pairs of each tile of the last picture, copied from the device.
   std::vector<uint32_t> listLengths();
 
 private:
@@ -63,7 +64,7 @@ private:
   ViewFacts Facts;
   std::array<float, 3> Behind; ///< the picture
   Pipeline Drawing;
-  int BuiltDegree = -1; ///< bands that the programs have
+  int BuiltDegree = -1; ///< degree of the compiled programs
   std::optional<BackwardPipeline> Back;
   cl::Buffer Picture;
 };

@@ -1,4 +1,4 @@
-/// What training keeps on the device.
+/// The state of training on the device.
 #pragma once
 
 #include "device/Launcher.h"
@@ -11,13 +11,13 @@
 
 namespace vorion::splat {
 
-/// A buffer of planes for the geometry and one for the colours: parameters or
-/// their gradients (layout.h, GEOMETRY_PLANES; plane 3 k + c of the colours has
-/// coefficient k of channel c).
+/// Buffers of planes for geometry and colours: parameters or their gradients
+/// (layout.h, GEOMETRY_PLANES; plane 3 k + c of the colours has coefficient k
+/// of channel c).
 struct PlanePair {
   cl::Buffer Geometry, Sh;
 };
-/// The same of one of the optimiser's moments.
+/// The same for a moment of the optimizer.
 struct MomentPair {
   MomentPlanes Geometry, Sh;
 };
@@ -28,15 +28,16 @@ struct DeviceScene {
   int ShDegree = 0;
   PlanePair Parameters;
   MomentPair First, Second; ///< Adam's moments
-  /// A number of each Gaussian that stays its own whatever becomes of others
+  /// The identity of each Gaussian, which changes of others do not affect
   /// (density.cl).
   cl::Buffer Identities;
 
   uint32_t colourPlanes() const {
     return static_cast<uint32_t>(3 * shCoefficients(ShDegree));
   }
-  /// Moments of \p New, which has another number of Gaussians: Do(from, to,
-  /// planes) makes them of those here, one after the other, and those here go.
+  /// Converts the moments to those of \p New, which has another number of
+  /// Gaussians, by Do(from, to, planes) for one moment after another, and frees
+  /// the old ones.
   template <typename Work>
   void remakeMoments(Launcher &L, DeviceScene &New, Work Do) {
     for (MomentPair DeviceScene::*M :
@@ -47,10 +48,11 @@ struct DeviceScene {
       From = {};
     }
   }
-  /// A pair for \p Gaussians of them.
+  /// Allocates a pair for \p Gaussians Gaussians.
   PlanePair allocate(Launcher &L, uint32_t Gaussians) const;
 
-  /// \p S with moments of 0, which lie on \p Where; identities count from 0.
+  /// Uploads \p S, with moments of 0 in the memory \p Where and identities from
+  /// 0 on.
   static DeviceScene upload(Launcher &L, const Scene &S,
                             MomentsOn Where = MomentsOn::Device);
   Scene download(Launcher &L) const;
@@ -58,8 +60,8 @@ struct DeviceScene {
   std::vector<uint32_t> downloadIdentities(Launcher &L) const;
 };
 
-/// How many Gaussians \p Bytes of a device's memory hold in training, a change
-/// of density included; pictures and lists of tiles take from that.
+/// Maximum number of Gaussians in training with \p Bytes of device memory,
+/// including a change of density. Pictures and lists of tiles reduce it.
 uint64_t mostInTraining(uint64_t Bytes, int ShDegree, MomentsOn Where);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// The exposure of each training picture, which is learned with the scene.
+/// The exposures of training pictures, optimized with the scene.
 #pragma once
 
 #include "device/Launcher.h"
@@ -12,12 +12,12 @@ namespace vorion::splat {
 
 ProgramSpec exposureProgram();
 
-/// From the scene's colours to a picture's: rows of red, green and blue, each
-/// the factors of red, green, blue and 1.
+/// Transforms the scene's colours to those of a picture: rows of red, green and
+/// blue, each with the factors of red, green, blue and 1.
 using ExposureMatrix = std::array<double, 12>;
 
-/// A matrix for each training picture; their mean is the identity, so that the
-/// scene keeps the mean exposure, with which held-out views are drawn.
+/// A matrix for each training picture. Their mean is the identity, so that
+/// held-out views are rendered with the mean exposure.
 class Exposures {
 public:
   Exposures(Launcher &Launch, const TrainSettings &Rules, std::size_t Pictures)
@@ -26,15 +26,15 @@ public:
   }
 
   bool areOn() const { return isExposureOn(Settings); }
-  /// All are the identity.
+  /// Sets all to the identity.
   void restart();
 
-  /// The picture number \p View as its exposure has it, from \p Picture of four
-  /// floats a pixel.
+  /// Applies the exposure of picture \p View to \p Picture, with four floats
+  /// per pixel.
   cl::Buffer apply(const cl::Buffer &Picture, uint32_t Pixels,
                    std::size_t View);
-  /// \p Gradient by the picture that \c apply gave becomes that by \p Picture;
-  /// gives that by the matrix.
+  /// Replaces \p Gradient, by the result of \c apply, by that by \p Picture.
+  /// Returns the gradient by the matrix.
   ExposureMatrix back(const cl::Buffer &Picture, const cl::Buffer &Gradient,
                       uint32_t Pixels, std::size_t View);
 
@@ -42,13 +42,15 @@ public:
     std::size_t View;
     ExposureMatrix Gradient;
   };
-  /// A step of Adam by the mean of \p Slopes; then the mean is the identity
-  /// again. On the host, in double, rounded to floats.
+  /// A step of Adam by the mean of \p Slopes, after which the mean is
+  /// normalized to the identity. On the host, in double precision, rounded to
+  /// floats.
   void step(const std::vector<Slope> &Slopes, unsigned Iteration);
 
-  /// Matrices and both moments, 12 floats a picture each; nothing if off.
+  /// Matrices and both moments, 12 floats per picture each; empty if off.
   std::vector<float> save() const { return State.save(); }
-  /// What \c save gave; the identity if it was for other pictures.
+  /// Restores the result of \c save; the identity if the number of pictures
+  /// differs.
   void restore(const std::vector<float> &Saved);
   ExposureMatrix matrix(std::size_t View) const;
 

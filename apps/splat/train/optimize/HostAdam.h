@@ -1,4 +1,4 @@
-/// The optimiser's step of the few parameters that stay on the host.
+/// The optimizer step of the few parameters on the host.
 #pragma once
 
 #include "train/settings/Settings.h"
@@ -8,18 +8,18 @@
 
 namespace vorion::splat {
 
-/// Values and their moments, floats as a checkpoint has them.
+/// Values and their moments, in the floats of checkpoints.
 class HostAdam {
 public:
-  /// Begins anew from \p From.
+  /// Resets the values to \p From and the moments to 0.
   void restart(std::vector<float> From);
 
   std::size_t size() const { return Values.size(); }
   float operator[](std::size_t I) const { return Values[I]; }
   const float *data() const { return Values.data(); }
 
-  /// Step \p Iteration (from 1) by \p Gradient, in double: the new values, of
-  /// which \c set makes floats.
+  /// Step \p Iteration (from 1) by \p Gradient. Returns the new values in
+  /// double precision, which \c set rounds to floats.
   std::vector<double> step(const TrainSettings &Settings,
                            const std::vector<double> &Gradient, double Rate,
                            unsigned Iteration);
@@ -29,7 +29,7 @@ public:
 
   /// Values, then both moments.
   std::vector<float> save() const;
-  /// What \c save gave; nothing happens if it was of another size.
+  /// Restores the result of \c save; no effect if the size differs.
   void restore(const std::vector<float> &State);
 
 private:

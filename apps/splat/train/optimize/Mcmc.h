@@ -1,5 +1,5 @@
-/// Density control as Markov chain Monte Carlo (Kheradmand et al. 2024, as
-/// gsplat has it): moves, draws, random steps. Kernels in kernels/mcmc.cl.
+/// Density control by Markov chain Monte Carlo (Kheradmand et al. 2024, as in
+/// gsplat): relocation, sampling, random steps. Kernels are in kernels/mcmc.cl.
 #pragma once
 
 #include "render/Sorter.h"
@@ -13,22 +13,23 @@ namespace vorion::splat {
 
 ProgramSpec mcmcProgram();
 
-/// Needs the programs scan and sort to be built beside its own. Random numbers
-/// depend on seed, iteration and the Gaussian's identity or the draw's number.
+/// Also needs the programs scan and sort. Random numbers depend on seed,
+/// iteration and the identity of the Gaussian or the index of the sample.
 class McmcControl {
 public:
   McmcControl(Launcher &Launch, const TrainSettings &Rules, uint64_t RandomSeed)
       : Launch(Launch), Settings(Rules), Seed(RandomSeed), Sort(Launch) {}
 
-  /// Moves what is as good as transparent to places drawn by opacity, then
-  /// draws more, until there are Settings.MostGaussians. Moments of what moved
-  /// and of where it moved to begin with 0, as do those of new ones.
+  /// Relocates nearly transparent Gaussians to positions sampled by opacity,
+  /// then samples new Gaussians, up to Settings.MostGaussians. Moments of
+  /// relocated Gaussians, of their targets and of new Gaussians are 0.
   DensityChange change(DeviceScene &S, unsigned Iteration);
-  /// A random step for each: up to \p Rate times the covariance.
+  /// Adds a random step to each Gaussian, of up to \p Rate times the
+  /// covariance.
   void addNoise(DeviceScene &S, unsigned Iteration, double Rate);
 
 private:
-  /// What is drawn: by which Gaussians, and how often each.
+  /// Samples: the source Gaussians, and the count of each.
   struct Draw {
     cl::Buffer Sources, Drawn;
   };
@@ -36,7 +37,7 @@ private:
     cl::Buffer Sums, Dead;
     uint32_t Total = 0;
   };
-  /// Of Gaussians with more than \p DeadLogit.
+  /// Weights of the Gaussians whose logit is above \p DeadLogit.
   Weights weigh(const DeviceScene &S, float DeadLogit);
   Draw draw(const DeviceScene &S, const Weights &W, uint32_t Draws,
             uint32_t Kind, unsigned Iteration);

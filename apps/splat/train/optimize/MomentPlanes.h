@@ -1,4 +1,4 @@
-/// Where Adam's moments lie: twice as much as the parameters.
+/// Storage of Adam's moments, whose size is twice that of the parameters.
 #pragma once
 
 #include "device/Launcher.h"
@@ -10,33 +10,32 @@
 
 namespace vorion::splat {
 
-/// On the device, or on the host where the device has no room for them. Then
-/// planes come to the device one at a time, for as long as it changes them. The
-/// results have the same bits.
+/// In device memory, or on the host if they do not fit. Planes on the host are
+/// copied to the device one at a time to be updated. Results are bit-identical.
 enum class MomentsOn { Device, Host };
 
 constexpr std::string_view name(MomentsOn W) {
   return W == MomentsOn::Device ? "device" : "host";
 }
 
-/// Planes of one moment, of as many floats as there are Gaussians. Who has them
-/// knows both numbers.
+/// Planes of one moment, with one float per Gaussian. The owner knows the
+/// numbers of planes and Gaussians.
 class MomentPlanes {
 public:
   MomentPlanes() = default;
-  /// Planes that lie on the device.
+  /// Planes on the device.
   MomentPlanes(cl::Buffer There) : OnDevice(std::move(There)) {}
-  /// \p Values where \p Place says.
+  /// \p Values in the memory \p Place.
   MomentPlanes(Launcher &L, MomentsOn Place, std::vector<float> Values);
 
   MomentsOn areOn() const { return Where; }
   const cl::Buffer &onDevice() const { return OnDevice; }
-  /// All \p Words of them.
+  /// All values, \p Words floats.
   std::vector<float> values(Launcher &L, std::size_t Words) const;
 
-  /// Changes the first \p Planes of \p Count floats in place. \p Do(Values,
-  /// First, Number) is called with a buffer that has Number planes from plane
-  /// First on: once, or for each plane.
+  /// Updates the first \p Planes planes of \p Count floats in place. \p
+  /// Do(Values, First, Number) is called, once or for each plane, with a buffer
+  /// of Number planes from plane First on.
   template <typename Work>
   void change(Launcher &L, uint32_t Count, uint32_t Planes, Work Do) {
     if (Where == MomentsOn::Device)
@@ -48,8 +47,8 @@ public:
       take(L, One, P, Count);
     }
   }
-  /// Changes plane \p P alone: \p Do(Values, At), where Values has it as its
-  /// plane At.
+  /// Updates only plane \p P, by \p Do(Values, At), where it is plane At of
+  /// Values.
   template <typename Work>
   void changePlane(Launcher &L, uint32_t Count, uint32_t P, Work Do) {
     if (Where == MomentsOn::Device)
@@ -59,7 +58,7 @@ public:
     Do(One, 0U);
     take(L, One, P, Count);
   }
-  /// change() of two moments at once: \p Do(first, second, First, Number).
+  /// change() for two moments at once: \p Do(first, second, First, Number).
   template <typename Work>
   static void changeBoth(Launcher &L, MomentPlanes &A, MomentPlanes &B,
                          uint32_t Count, uint32_t Planes, Work Do) {
@@ -73,8 +72,8 @@ public:
                A.take(L, OfA, P, Count);
              });
   }
-  /// \p Planes of \p NewCount floats at the same place, which \p Do(from, to,
-  /// Number) makes of those here.
+  /// Creates \p Planes planes of \p NewCount floats in the same memory, by \p
+  /// Do(from, to, Number).
   template <typename Work>
   MomentPlanes remade(Launcher &L, uint32_t Count, uint32_t Planes,
                       uint32_t NewCount, Work Do) const {
@@ -96,7 +95,7 @@ public:
 
 private:
   static cl::Buffer allocate(Launcher &L, std::size_t Words);
-  /// Plane \p P to the device, and back.
+  /// Copies plane \p P to the device, and back.
   void bring(Launcher &L, const cl::Buffer &To, uint32_t P,
              uint32_t Count) const;
   void take(Launcher &L, const cl::Buffer &From, uint32_t P, uint32_t Count);

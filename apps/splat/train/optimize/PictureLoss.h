@@ -9,7 +9,7 @@
 namespace vorion::splat {
 
 ProgramSpec lossProgram();
-/// For pictures of which some pixels do not count.
+/// For pictures with masks.
 ProgramSpec maskProgram();
 
 struct LossValues {
@@ -18,22 +18,22 @@ struct LossValues {
   double Value = 0;    ///< (1 - D) Absolute + D (1 - Ssim)
 };
 
-/// Buffers are kept from picture to picture and grow with the largest one.
-/// Pixels are added in a fixed order: of tiles in fp32 on the device, their
-/// sums in double.
+/// Buffers are reused, and grow with the largest picture. Pixels are summed in
+/// a fixed order: within tiles in fp32 on the device, and the sums of tiles in
+/// double precision.
 class PictureLoss {
 public:
   PictureLoss(Launcher &Launch, double DSsimShare)
       : Launch(Launch), DSsim(DSsimShare) {}
 
-  /// \p Picture has four floats a pixel, of which the first three are compared
-  /// with \p Target; dL/dpicture goes to \c gradient(), three floats a pixel.
-  /// Where \p Counts, if it is not empty, has a 0 for a pixel, that pixel is
-  /// black in both; means are over the pixels that count.
+  /// \p Picture has four floats per pixel, of which the first three are
+  /// compared with \p Target. \c gradient() is then dL/dpicture, three floats
+  /// per pixel. Pixels with a 0 in \p Counts (if not empty) are black in both
+  /// pictures and excluded from means.
   LossValues evaluate(const cl::Buffer &Picture, const Photo &Target,
                       const std::vector<uint8_t> &Counts = {});
   const cl::Buffer &gradient() const { return Gradient; }
-  /// The loss does not know alpha: a 0 for each pixel.
+  /// 0 for each pixel, because the loss does not depend on alpha.
   const cl::Buffer &alphaGradient() const { return NoAlpha; }
 
 private:

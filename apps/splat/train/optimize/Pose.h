@@ -1,5 +1,4 @@
-/// Corrections of the training pictures' poses, which are learned with the
-/// scene.
+/// Corrections of the poses of training pictures, optimized with the scene.
 #pragma once
 
 #include "device/Launcher.h"
@@ -14,33 +13,35 @@ namespace vorion::splat {
 
 ProgramSpec poseProgram();
 
-/// The loss's gradient by a camera's place (x, y, z of the world), and by
-/// turning it about its centre, by an axis of the world times an angle.
+/// The gradient of the loss by a camera's position (x, y, z in world
+/// coordinates), and by its rotation about its centre (an axis in world
+/// coordinates times an angle).
 using PoseSlope = std::array<double, 6>;
 
-/// How far corrections go: angles in radians, shifts in world units.
+/// The size of the corrections: angles in radians, translations in world units.
 struct PoseChange {
   double MeanTurn = 0, MostTurn = 0, MeanShift = 0, MostShift = 0;
 };
 
-/// Of each picture a shift along its camera's own axes, over the cameras'
-/// extent, and a turn by them, an axis times an angle. All together they do not
-/// move, turn or scale the cameras: what least squares find of that is taken
-/// out after each step, so that scene and held-out views stay where they are.
+/// For each picture, a translation in camera coordinates, divided by the
+/// cameras' extent, and a rotation, an axis times an angle. After each step,
+/// the common translation, rotation and scaling of all cameras (by least
+/// squares) is removed, so that scene and held-out views stay aligned.
 class Poses {
 public:
-  /// Of the pictures that \p Given took. With a rate of 0 nothing is corrected.
+  /// For pictures with the cameras \p Given. With a rate of 0 nothing is
+  /// corrected.
   Poses(Launcher &Launch, const TrainSettings &Rules, std::vector<Camera> Given,
         double CamerasExtent);
 
   bool areOn() const { return arePosesOn(Settings); }
-  /// Nothing is corrected any more.
+  /// Resets all corrections.
   void restart();
 
-  /// The camera of picture number \p View, corrected.
+  /// The corrected camera of picture \p View.
   Camera at(std::size_t View) const;
-  /// By its corrected pose, from what the way back from there gave; the
-  /// renderer was told to keep what it takes (BackwardOptions::Poses).
+  /// The gradient by its corrected pose, computed from the results of the
+  /// backward pass, which needs BackwardOptions::Poses.
   PoseSlope slope(std::size_t View, const PlanePair &Parameters,
                   const GradientRenderer::Backward &Back, uint32_t Count);
 
@@ -51,9 +52,10 @@ public:
   /// A step of Adam by the mean of \p Slopes, on the host in double.
   void step(const std::vector<Slope> &Slopes, unsigned Iteration);
 
-  /// Corrections and both moments, 6 floats a picture each; nothing if off.
+  /// Corrections and both moments, 6 floats per picture each; empty if off.
   std::vector<float> save() const { return State.save(); }
-  /// What \c save gave; no correction if it was for other pictures.
+  /// Restores the result of \c save; no correction if the number of pictures
+  /// differs.
   void restore(const std::vector<float> &Saved);
   PoseChange change() const;
 

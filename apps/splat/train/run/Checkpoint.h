@@ -10,36 +10,35 @@
 
 namespace vorion::splat {
 
-/// Everything that the rest of a run depends on. Arrays are planes as the
-/// device has them (DeviceScene.h).
+/// The complete state of a run. Arrays are planes in the layout of the device
+/// (DeviceScene.h).
 struct Checkpoint {
-  /// What the run was asked to do, one line; a run goes on only if it is asked
-  /// the same.
+  /// The parameters of the run, one line. A run can be continued only with the
+  /// same parameters.
   std::string Run;
-  unsigned Iteration = 0; ///< done
+  unsigned Iteration = 0; ///< completed iterations
   int ShDegree = 0;
   std::vector<float> Geometry, Sh;
   std::vector<float> FirstGeometry, FirstSh, SecondGeometry, SecondSh;
-  std::vector<uint32_t> Identities; ///< of Gaussians, DeviceScene.h
+  std::vector<uint32_t> Identities; ///< of Gaussians (DeviceScene.h)
   DensityNotes Notes;
   std::vector<float> Losses;    ///< of every iteration
-  std::vector<float> Exposures; ///< Exposure.h; of most runs none
-  std::vector<float> Poses;     ///< Pose.h; the same
+  std::vector<float> Exposures; ///< Exposure.h; empty in most runs
+  std::vector<float> Poses;     ///< Pose.h; empty in most runs
 
   std::size_t gaussians() const { return Notes.Views.size(); }
 };
 
-/// Writes aside and renames: an interrupted or failed write leaves the file
-/// that was there. So does a run whose values are no finite numbers any more,
-/// which is an Error (GuestFailed).
+/// Writes a temporary file and renames it: an interrupted or failed write does
+/// not change the old file. A value that is not finite is an Error
+/// (GuestFailed), and does not change the old file either.
 Expected<Success> writeCheckpoint(const std::string &Path, const Checkpoint &C);
 
-/// Refused: other versions, files that are shorter, longer or otherwise than
-/// they were written (a checksum tells), values that are no finite numbers.
-/// Takes no more memory than a few times the file's size.
+/// Errors: other versions, truncated or corrupted files (by checksum), values
+/// that are not finite. Memory use is bounded by a few times the file size.
 Expected<Checkpoint> readCheckpoint(const std::string &Path);
 
-/// The same of \p File, the bytes of \p Path.
+/// The same for \p File, the content of \p Path.
 Expected<Checkpoint> parseCheckpoint(const std::string &Path, Bytes File);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// Which iterations of a run the machine's clock times, and how long they took.
+/// Selection of the timed iterations of a run, and their simulated times.
 #pragma once
 
 #include "device/Launcher.h"
@@ -11,9 +11,10 @@
 
 namespace vorion::splat {
 
-/// Whether iteration \p Iteration, from 1, is the one of its \p Every that is
-/// timed. Drawn by counting random numbers from \p Seed: what is done every
-/// hundredth iteration is timed as often as it comes.
+/// Whether \p Iteration, from 1, is the timed iteration of its block of \p
+/// Every. It is selected at random by a counter-based generator with \p Seed,
+/// so that periodic work, such as every hundredth iteration, is sampled in
+/// proportion.
 bool isTimed(uint64_t Seed, unsigned Every, unsigned Iteration);
 
 struct TimedIteration {
@@ -26,23 +27,23 @@ struct TimedIteration {
 /// The timed iterations of a run.
 class ClockSamples {
 public:
-  /// False, and nothing is added, if the device gave no time.
+  /// Returns false, and adds nothing, if the device reported no time.
   [[nodiscard]] bool add(TimedIteration T);
 
   bool empty() const { return Milliseconds.empty(); }
-  /// Iterations a second, by the mean.
+  /// Iterations per second, from the mean time.
   double rate() const;
-  /// A line: mean, standard deviation, least and most.
+  /// One line: mean, standard deviation, minimum and maximum.
   std::string text() const;
-  /// The machine and the clock that the times are of.
+  /// The machine and clock of the times.
   std::string machine() const;
-  /// Where there is one.
+  /// Precondition: not empty.
   const TimedIteration &last() const { return All.back(); }
-  /// The last one by stage (FrameTime.h).
+  /// The last iteration by stage (FrameTime.h).
   std::string lastByStage() const;
-  /// JSON array, an iteration each: number, Gaussians, list lengths, stages
-  /// with kernels and counters, time, and energy where it is asked for. The
-  /// errors are the model's.
+  /// JSON array with an element for each iteration: number, Gaussians, list
+  /// lengths, stages with kernels and counters, time, and energy if requested.
+  /// Errors are those of the energy model.
   Expected<nlohmann::ordered_json>
   json(const std::optional<EnergyRequest> &Energy) const;
 

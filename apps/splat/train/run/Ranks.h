@@ -1,4 +1,4 @@
-/// The processes of one training run, each with a device of its own.
+/// The processes of one training run, each with its own device.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -7,9 +7,9 @@
 
 namespace vorion::splat {
 
-/// One process's view of all of them. Every call but the first three is made
-/// by all processes, in the same order; processes are numbered from 0. Not
-/// thread-safe.
+/// Communication of the processes. All calls except the first three are
+/// collective: all processes must make them in the same order. Ranks start at
+/// 0. Not thread-safe.
 class Ranks {
 public:
   virtual ~Ranks() = default;
@@ -19,14 +19,14 @@ public:
   /// Whether this is the process that writes files and prints.
   bool first() const { return rank() == 0; }
 
-  /// Gives every process what process \p From has at \p Data.
+  /// Broadcasts the data at \p Data of process \p From.
   virtual void share(unsigned From, void *Data, std::size_t Bytes) = 0;
 
-  /// Whether \p Mine is true in any process.
+  /// Whether \p Mine is true in at least one process.
   bool any(bool Mine);
-  /// What the first process with an error has, for all of them, so that none
-  /// waits for one that has given up; it says which process, unless that is the
-  /// first one.
+  /// Returns the error of the first process that has one in all processes, so
+  /// that none waits for a failed process. The error names the process unless
+  /// it is the first.
   Expected<Success> agree(const Expected<Success> &Mine);
 };
 
@@ -39,10 +39,10 @@ public:
              std::size_t /*Bytes*/) override {}
 };
 
-/// Those that mpirun started, or the only one. Of several, only the first has a
-/// standard output from now on; all have a standard error, for what the device
-/// says and for how a process dies. An error where mpirun has started several
-/// and this build is without MPI.
+/// The processes that mpirun started, or the only one. Of several processes,
+/// only the first keeps its standard output; all keep standard error, for
+/// messages of devices and crashes. An error if mpirun has started several and
+/// this build lacks MPI.
 Expected<std::unique_ptr<Ranks>> openRanks();
 
 } // namespace vorion::splat

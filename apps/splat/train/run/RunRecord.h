@@ -1,4 +1,4 @@
-/// What a training run was asked to do, as checkpoints and reports have it.
+/// The parameters of a training run in checkpoints and reports.
 #pragma once
 
 #include "capture/Capture.h"
@@ -12,29 +12,29 @@
 
 namespace vorion::splat {
 
-/// How the pictures were made from the capture.
+/// The conversion of the capture to training pictures.
 struct PictureSource {
   std::string Format; ///< of the capture
   int Downscale = 1;
 };
 
-/// Of all that the pictures and their poses say.
+/// Hash of pictures and poses.
 std::string hashPictures(const TrainingSet &Set);
 
-/// Of the points that training starts from.
+/// Hash of the initial points of training.
 std::string hashPoints(const CapturePoints &Points);
 
-/// JSON that differs where results would: pictures, poses and first
-/// points (by hash), settings, seed, spherical harmonics, who renders. The
-/// number of iterations is not part of it, so that a run can go on for longer.
+/// JSON of all parameters that affect results: pictures, poses and initial
+/// points (by hash), settings, seed, spherical harmonics, renderer. It excludes
+/// the number of iterations, so that a run can be extended.
 nlohmann::ordered_json runRecord(const TrainRun &Run,
                                  const TrainingSet &Pictures,
                                  const PictureSource &Source, int ShDegree,
                                  Rules Convention, const Blender &By,
                                  const BackwardOptions &Backward);
 
-/// An Error of usage that names the first thing in which \p Wanted differs from
-/// what \p File was written for, the text \p Has, or nothing.
+/// A usage error that names the first difference between \p Wanted and \p Has,
+/// the parameters in \p File; success if they are equal.
 Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
                                const nlohmann::ordered_json &Wanted);
 

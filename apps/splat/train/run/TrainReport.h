@@ -1,4 +1,4 @@
-/// What a training run did, for programs.
+/// The JSON report of a training run.
 #pragma once
 
 #include "train/run/Training.h"
@@ -7,8 +7,8 @@
 
 namespace vorion::splat {
 
-/// Inputs, settings, device, scores, losses and the timed iterations, with
-/// energy where it is asked for.
+/// Inputs, settings, device, scores, losses and timed iterations, with energy
+/// if requested.
 Expected<nlohmann::ordered_json>
 trainReport(const TrainRequest &R, const TrainOutcome &Out,
             const std::optional<EnergyRequest> &Energy);

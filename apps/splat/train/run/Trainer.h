@@ -1,4 +1,5 @@
-/// The loop: density control, views, their loss, the way back, a step.
+/// The training loop: density control, views, loss, backward pass, optimizer
+/// step.
 #pragma once
 
 #include "picture/Options.h"
@@ -19,44 +20,47 @@
 
 namespace vorion::splat {
 
-/// What makes one run another.
+/// The parameters of a run.
 struct TrainRun {
   TrainSettings Settings;
   uint64_t Seed = 0;
-  /// Hash of the checkpoint of another run that it begins with, or empty.
+  /// Hash of the initial checkpoint of another run, or empty.
   std::string From;
-  std::string Points;                ///< else hash of those that it begins with
+  std::string Points;                ///< otherwise hash of the initial points
   double Extent = 1;                 ///< of the cameras
-  unsigned Batch = 1;                ///< views an iteration
-  std::array<float, 3> Background{}; ///< of held-out views at least
-  /// Each training picture has one of its own.
+  unsigned Batch = 1;                ///< views per iteration
+  std::array<float, 3> Background{}; ///< of held-out views, and of training
+                                     ///< views unless random
+  /// Whether each training picture has a random background.
   bool RandomBackground = false;
   MaskSource Masks = MaskSource::None;
   bool Antialiased = false; ///< scene/Drawing.h
-  /// Whether photographs are taken as they are, through their lenses.
+  /// Whether original photographs are used, with their lenses.
   LensOf Pictures = LensOf::Undistorted;
   Spread Through = Spread::Jacobian;
 
-  /// Which has a reset more.
+  /// Whether the background is white, which adds an opacity reset.
   bool isWhite() const {
     return !RandomBackground && Background == std::array<float, 3>{1, 1, 1};
   }
 };
 
-/// What an iteration did.
+/// The result of an iteration.
 struct StepReport {
   unsigned Iteration = 0; ///< from 1
   LossValues Loss;
   uint32_t Gaussians = 0;               ///< after it
-  std::optional<DensityChange> Density; ///< if it changed before the views
+  std::optional<DensityChange> Density; ///< if the density changed in this
+                                        ///< iteration
 };
 
-/// One run, on a device of each process. Results depend on run, pictures and
-/// starting scene only, not on the number of processes; errors stick in the
-/// launcher, those of step() in the launchers of all processes.
+/// A run on the devices of all processes. Results depend only on run, pictures
+/// and initial scene, not on the number of processes. The launcher keeps
+/// errors; errors of step() are kept in the launchers of all processes.
 class Trainer {
 public:
-  /// The programs that training on \p Pictures runs beside the renderer's.
+  /// The programs of training on \p Pictures, in addition to those of the
+  /// renderer.
   static std::vector<ProgramSpec> programs(const TrainSettings &Settings,
                                            const TrainingSet &Pictures,
                                            MomentsOn Where = MomentsOn::Device);
@@ -68,7 +72,7 @@ public:
 
   void start(const Scene &S);
   void restore(const Checkpoint &C);
-  /// All but \c Checkpoint::Run.
+  /// Sets all members except \c Checkpoint::Run.
   Checkpoint save();
 
   StepReport step();
@@ -76,13 +80,13 @@ public:
   uint32_t gaussians() const { return State.Count; }
   const std::vector<float> &losses() const { return Losses; }
   Scene scene();
-  /// Of training view number \p View, as training has corrected it.
+  /// The corrected pose of training view \p View.
   Camera pose(std::size_t View) const { return Posed.at(View); }
   PoseChange poseChange() const { return Posed.change(); }
 
-  /// The scene from \p C, rounded to 8 bits.
+  /// Renders the scene in the view \p C, rounded to 8 bits.
   Photo render(const Camera &C);
-  /// PSNR of 8-bit values of every held-out view, dB, in their order.
+  /// PSNR of the 8-bit values of each held-out view, dB.
   std::vector<double> evaluate();
 
 private:

@@ -1,4 +1,4 @@
-/// A whole run of training: capture, processes, checkpoints, interrupts, loop.
+/// A complete training run: capture, processes, checkpoints, interrupts, loop.
 #pragma once
 
 #include "capture/Capture.h"
@@ -19,8 +19,8 @@
 
 namespace vorion::splat {
 
-/// Where Adam's moments shall lie. Auto: on the host if the device does not
-/// hold as many Gaussians as are allowed with theirs.
+/// The memory of Adam's moments. Auto: the host if the device cannot hold the
+/// maximum number of Gaussians with their moments.
 enum class MomentsChoice { Auto, Device, Host };
 
 constexpr std::string_view name(MomentsChoice C) {
@@ -30,7 +30,7 @@ constexpr std::string_view name(MomentsChoice C) {
                                              : MomentsOn::Device);
 }
 
-/// What is asked for.
+/// The parameters of a run and its outputs.
 struct TrainRequest {
   std::string Capture;
   CaptureOptions Read;
@@ -39,65 +39,65 @@ struct TrainRequest {
   Rules Convention = Rules::Inria;
   Blender Blending = Path::Raster;
   BackwardOptions Backward;
-  TrainRun Run; ///< extent and hashes are found out
+  TrainRun Run; ///< extent and hashes are computed
   MomentsChoice Moments = MomentsChoice::Auto; ///< changes no bit
   std::string Checkpoint;
   unsigned CheckpointEvery = 1000; ///< iterations
-  bool Resume = false; ///< go on from the checkpoint, if there is one
-  std::string From;    ///< another run's checkpoint, or empty
-  /// Of so many iterations one is timed by the machine's clock; nothing: none.
+  bool Resume = false; ///< continue from the checkpoint if it exists
+  std::string From;    ///< checkpoint of another run, or empty
+  /// One of this number of iterations is timed by the clock; empty: none.
   std::optional<unsigned> TimeEvery;
-  /// Iterations from one score of the held-out views to the next; 0: none but
-  /// the last.
+  /// Iterations between evaluations of the held-out views; 0: only the last.
   unsigned ScoreEvery = 0;
-  bool KeepPictures = false; ///< of the held-out views, for the outcome
+  bool KeepPictures = false; ///< keep held-out pictures in the outcome
 };
 
-/// How far a run is.
+/// The progress of a run.
 struct TrainProgress {
   StepReport Step;
-  unsigned First = 0, Last = 0; ///< iterations done before, and in all
+  unsigned First = 0, Last = 0; ///< iterations done before, and in total
   double Seconds = 0;           ///< wall time
-  /// Of the first iteration of this run, which waits for kernels to be
-  /// compiled.
+  /// Time of the first iteration, which includes compilation of kernels.
   double FirstSeconds = 0;
-  /// Iterations a second by the machine's clock, once it has timed one.
+  /// Simulated iterations per second, once an iteration has been timed.
   std::optional<double> MachineRate;
 };
 
-/// What the program around a run does for it. Processes that mpirun started
-/// each have their own.
+/// Callbacks of a run. Each process that mpirun started has its own.
 struct TrainHost {
-  /// That all other options are right; the first that is called.
+  /// Checks all other options; called first.
   std::function<Expected<Success>()> Check;
   std::function<Expected<Device>()> OpenDevice;
-  /// What the compiler said, where programs did not build.
+  /// Prints the build log if programs failed to compile.
   std::function<void(const Launcher &)> ShowBuildLog;
 
-  /// \name In the first process alone
+  /// \name Only in the first process
   /// @{
-  std::function<void(const TrainProgress &)> Progress; ///< of each iteration
+  std::function<void(const TrainProgress &)> Progress; ///< called for each
+                                                       ///< iteration
   std::function<void()> EndProgress;
-  std::function<void(std::string_view)> Note; ///< a line
+  std::function<void(std::string_view)> Note; ///< prints a line
   /// @}
 };
 
-/// What came out.
+/// The result of a run.
 struct TrainOutcome {
   Scene Result;
-  nlohmann::ordered_json Record; ///< what was asked (RunRecord.h)
+  nlohmann::ordered_json Record; ///< parameters of the run (RunRecord.h)
   std::string DeviceName, DeviceVersion;
   int Width = 0, Height = 0; ///< px, of the first training view
   std::size_t TrainingViews = 0;
-  std::string HeldOutBy; ///< what decided which views are held out
-  /// Views of the capture that had no picture; whose lens bends; with a mask.
+  std::string HeldOutBy; ///< criterion for held-out views
+  /// Number of views without a picture; with distortion; with a mask.
   std::size_t WithoutPicture = 0, Distorted = 0, Masked = 0;
-  std::size_t Depths = 0; ///< places of training pictures with a known depth
-  std::optional<PoseChange> Poses; ///< where poses were corrected
+  std::size_t Depths = 0; ///< number of pixels of training pictures with a
+                          ///< known depth
+  std::optional<PoseChange> Poses; ///< if poses were corrected
   MomentsOn Moments = MomentsOn::Device;
   unsigned Processes = 1;
-  unsigned First = 0, Iterations = 0; ///< done before, and in all
-  unsigned ResumedAfter = 0; ///< the own checkpoint's iteration; 0: of none
+  unsigned First = 0, Iterations = 0; ///< done before, and in total
+  unsigned ResumedAfter = 0; ///< iteration of its own checkpoint; 0: not
+                             ///< resumed
   double Seconds = 0;        ///< wall time of the loop
   ClockSamples Timed;
   std::vector<float> Losses; ///< of every iteration
@@ -105,23 +105,21 @@ struct TrainOutcome {
   std::vector<std::pair<unsigned, double>> Scores;
   /// Names of the held-out views, and the PSNR of their 8-bit values.
   std::vector<std::pair<std::string, double>> HeldOut;
-  std::optional<Baselines> Without; ///< where views are held out
+  std::optional<Baselines> Without; ///< if views are held out
   std::vector<Camera> Cameras;      ///< of all views, at their size in training
-  /// What the held-out views show and should, where it was asked for.
+  /// Rendered and true pictures of held-out views, if requested.
   std::vector<std::pair<Photo, TrainView>> Shown;
 
-  /// Mean over the held-out views, of which there are some.
+  /// Mean PSNR over the held-out views, of which there must be at least one.
   double meanDb() const;
 };
 
-/// That a run as \p R asks for can begin with \p C, the checkpoint of its
-/// --from.
+/// Checks that the run \p R can start from \p C, the checkpoint of its --from.
 Expected<Success> checkBeginning(const TrainRequest &R, const Checkpoint &C);
 
-/// Trains as \p R asks. An interrupt (SIGINT, SIGTERM) ends the run after the
-/// iteration at hand, with a checkpoint and an Error that says so. The outcome
-/// is the first process's; the others have nothing, and end without an Error of
-/// their own, which the first one tells.
+/// Executes the run \p R. An interrupt (SIGINT, SIGTERM) ends the run after the
+/// current iteration, with a checkpoint and an Error. Only the first process
+/// returns an outcome or an Error; the others return nothing.
 Expected<std::optional<TrainOutcome>> train(TrainRequest R,
                                             const TrainHost &Host);
 

@@ -1,4 +1,4 @@
-/// What the views of one iteration give, added up over all processes.
+/// Sums the results of the views of an iteration over all processes.
 #pragma once
 
 #include "train/optimize/Density.h"
@@ -10,23 +10,23 @@
 
 namespace vorion::splat {
 
-/// Views are numbered in an iteration and added in that order, one after the
-/// other: results are the same bits for any number of processes. Process r has
-/// views r, r + size, ... Errors stick in the launcher.
+/// Views are added in a fixed order, so that results are bit-identical for any
+/// number of processes. Process r renders views r, r + size, ... The launcher
+/// keeps errors.
 class ViewBatch {
 public:
-  /// \p Views of an iteration.
+  /// \p Views is the number of views of an iteration.
   ViewBatch(Launcher &Launch, Ranks &Processes, DensityControl &Control,
             unsigned Views)
       : Launch(Launch), Processes(Processes), Density(Control), Views(Views) {}
 
-  /// Forgets the last iteration. Gradients of \p Of, whose bands up to
-  /// \p ShDegree are in use; \p Notes: density control notes the views.
+  /// Starts an iteration with gradients of \p Of, whose bands up to \p ShDegree
+  /// are in use. \p Notes: density control collects statistics.
   void begin(const DeviceScene &Of, int ShDegree, bool Notes);
   /// Frees the gradients.
   void forget() { Sum = {}; }
   bool complete() const { return Added == Views; }
-  /// The view that this process renders next; \c Views or more: none.
+  /// The next view of this process; \c Views or more: none.
   unsigned next() const { return Added + Processes.rank(); }
 
   struct ViewResult {
@@ -35,14 +35,14 @@ public:
     ExposureMatrix ByExposure = {};
     PoseSlope ByPose = {};
   };
-  /// Adds a view of each process; \p Mine is null where \c next() is none.
+  /// Adds a view of each process; \p Mine is null if \c next() is none.
   void add(const ViewResult *Mine);
 
   /// \name Means over the views, once complete
   /// @{
   const PlanePair &gradients() const { return Sum; }
   LossValues loss() const;
-  /// Of each view by its exposure and by its pose.
+  /// Gradients of each view by its exposure and by its pose.
   const std::vector<ExposureMatrix> &byExposures() const { return Exposed; }
   const std::vector<PoseSlope> &byPoses() const { return Posed; }
   /// @}

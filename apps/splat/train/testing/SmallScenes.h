@@ -1,4 +1,4 @@
-/// Scenes, cameras and photographs that training's tests make.
+/// Scenes, cameras and photographs for the tests of training.
 #pragma once
 
 #include "capture/Photo.h"
@@ -10,23 +10,23 @@
 
 namespace vorion::splat {
 
-/// How far apart a random scene's parameters are: each is a middle, 0 but for
-/// the log scales, plus at most this much to either side.
+/// The distribution of a random scene's parameters: uniform around a centre,
+/// which is 0 except for the log scales, within this distance.
 struct SceneSpread {
   float Means = 0.8F;                       ///< world units
-  float LogScale = -1.6F, LogScales = 0.6F; ///< the middle, and beside it
+  float LogScale = -1.6F, LogScales = 0.6F; ///< centre, and distance
   float Logits = 1.5F;
 };
 
-/// \p Count Gaussians of all colours about the origin.
+/// \p Count Gaussians of random colours around the origin.
 Scene randomScene(std::mt19937 &Random, uint32_t Count, int ShDegree,
                   const SceneSpread &Spread = {});
 
-/// \p C 3 units from the axis that runs through the origin along y, at \p Angle
-/// about it, \p Down along it, and looking across it.
+/// \p C at 3 units from the y axis, rotated by \p Angle about it, translated by
+/// \p Down along it, and looking at it.
 Camera aroundOrigin(Camera C, double Angle, double Down);
 
-/// What \p C sees of \p S, by the reference in fp64.
+/// The view \p C of \p S, rendered by the fp64 reference.
 Photo photographed(const Scene &S, const Camera &C);
 
 } // namespace vorion::splat
