@@ -10,7 +10,9 @@
 namespace vorion::splat {
 namespace {
 
-/// Of COLMAP's src/colmap/sensor/models.h, those that have no record in lens/.
+/// Of COLMAP's src/colmap/sensor/models.h, those that lens/ does not have yet:
+/// they are refused by name. A record in lens/ with such a number replaces the
+/// row. Tests of the message use RAD_TAN_THIN_PRISM_FISHEYE.
 constexpr ColmapLens WithoutLens[] = {
     {7, "FOV", 2, 1},
     {10, "THIN_PRISM_FISHEYE", 2, 8},
@@ -18,25 +20,28 @@ constexpr ColmapLens WithoutLens[] = {
     {16, "EUCM", 2, 2},
 };
 
-std::vector<ColmapCameraModel> makeModels() {
-  std::vector<ColmapCameraModel> Models;
-  for (const LensModel *Lens : lenses::all())
-    for (const ColmapLens &M : Lens->Colmap)
-      Models.push_back({M, Lens});
-  for (const ColmapLens &M : WithoutLens)
-    Models.push_back({M, nullptr});
-  std::ranges::sort(Models, {}, &ColmapCameraModel::Id);
-  return Models;
-}
-
 bool allFinite(std::span<const double> Values) {
   return std::ranges::all_of(Values, [](double V) { return std::isfinite(V); });
 }
 
 } // namespace
 
+std::vector<ColmapCameraModel>
+colmapCameraModelsOf(std::span<const LensModel *const> Lenses) {
+  std::vector<ColmapCameraModel> Models;
+  for (const LensModel *Lens : Lenses)
+    for (const ColmapLens &M : Lens->Colmap)
+      Models.push_back({M, Lens});
+  for (const ColmapLens &M : WithoutLens)
+    if (std::ranges::find(Models, M.Id, &ColmapCameraModel::Id) == Models.end())
+      Models.push_back({M, nullptr});
+  std::ranges::sort(Models, {}, &ColmapCameraModel::Id);
+  return Models;
+}
+
 std::span<const ColmapCameraModel> colmapCameraModels() {
-  static const std::vector<ColmapCameraModel> Models = makeModels();
+  static const std::vector<ColmapCameraModel> Models =
+      colmapCameraModelsOf(lenses::all());
   return Models;
 }
 

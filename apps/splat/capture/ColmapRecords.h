@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -13,7 +14,11 @@ namespace vorion::splat {
 struct ColmapCameraModel : ColmapLens {
   const LensModel *Lens; ///< null if unsupported
 };
+/// In the order of their numbers.
 std::span<const ColmapCameraModel> colmapCameraModels();
+/// The same if \p Lenses were the only records.
+std::vector<ColmapCameraModel>
+colmapCameraModelsOf(std::span<const LensModel *const> Lenses);
 /// Names of the supported models, for messages.
 std::string knownColmapModels();
 

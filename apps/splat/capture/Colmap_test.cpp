@@ -1,6 +1,7 @@
 #include "capture/Colmap.h"
 
 #include "capture/CaptureTest.h"
+#include "capture/ColmapRecords.h"
 #include "lens/Models.h"
 
 #include <algorithm>
@@ -290,6 +291,18 @@ TEST(ColmapBinary, ModelsHaveColmapsNumbers) {
   }
 }
 
+// A model is added by its record alone: the row by which it was refused goes.
+TEST(ColmapRecords, ARecordReplacesTheRefusedModelOfItsNumber) {
+  static constexpr ColmapLens Rows[] = {{7, "FOV", 2, 1}};
+  const LensModel Added{.Name = "FOV", .Colmap = Rows};
+  const LensModel *const Lenses[] = {&lenses::Pinhole, &Added};
+  const auto Models = colmapCameraModelsOf(Lenses);
+  EXPECT_EQ(std::ranges::count(Models, 7, &ColmapCameraModel::Id), 1);
+  EXPECT_EQ(std::ranges::find(Models, 7, &ColmapCameraModel::Id)->Lens, &Added);
+  EXPECT_EQ(std::ranges::find(Models, 11, &ColmapCameraModel::Id)->Lens,
+            nullptr);
+}
+
 TEST(ColmapBinary, AFileMayBeginAsAnotherKindDoes) {
   Parts P = partsOf(sampleCapture(2), false);
   // {" is where tensors (safetensors) have it.
@@ -305,9 +318,9 @@ TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
     std::function<void(Parts &)> Change;
     const char *Message;
   } Cases[] = {
-      {[](Parts &P) { patch<int32_t>(P.Cameras, 12, 7); },
-       "cameras: camera 7 has the model FOV, expected one of "
-       "SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL"},
+      {[](Parts &P) { patch<int32_t>(P.Cameras, 12, 11); },
+       "cameras: camera 7 has the model RAD_TAN_THIN_PRISM_FISHEYE, expected "
+       "one of SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL"},
       {[](Parts &P) { patch<int32_t>(P.Cameras, 12, 99); },
        "cameras: camera 7 has model number 99"},
       {[](Parts &P) { patch<uint64_t>(P.Cameras, 16, ~0ULL); },
@@ -345,8 +358,9 @@ TEST(ColmapText, EachKindOfDamageHasItsMessage) {
     std::string Parts::*Part;
     const char *What, *With, *Message;
   } Cases[] = {
-      {&Parts::Cameras, "PINHOLE", "FOV",
-       "cameras:2: camera 7 has the model FOV, expected one of SIMPLE_PINHOLE"},
+      {&Parts::Cameras, "PINHOLE", "RAD_TAN_THIN_PRISM_FISHEYE",
+       "cameras:2: camera 7 has the model RAD_TAN_THIN_PRISM_FISHEYE, expected "
+       "one of SIMPLE_PINHOLE"},
       {&Parts::Cameras, "PINHOLE", "ORANGE",
        "cameras:2: camera 7 has model ORANGE"},
       {&Parts::Cameras, "PINHOLE", "SIMPLE_PINHOLE",

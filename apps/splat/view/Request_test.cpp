@@ -52,7 +52,7 @@ TEST(ViewRequest, ALensIsThatOfCamerasFiles) {
   ASSERT_TRUE(Sphere) << Sphere.error().What;
   EXPECT_DOUBLE_EQ(Sphere->View.Fy, 48 / M_PI);
   for (const nlohmann::json &Bad :
-       {nlohmann::json("OPENCV"), nlohmann::json({{"camera_model", "FOV"}}),
+       {nlohmann::json("OPENCV"), nlohmann::json({{"camera_model", "ORANGE"}}),
         nlohmann::json({{"k1", 1e9}}), nlohmann::json({{"k1", "much"}})}) {
     Asked["camera"]["lens"] = Bad;
     const auto Refused = parseViewRequest(Asked.dump());

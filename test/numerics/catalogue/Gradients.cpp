@@ -4,9 +4,11 @@
 #include "GradientJudge.h"
 #include "Lenses.h"
 #include "Places.h"
+#include "lens/Lenses.h"
 
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 
 namespace vorion::test {
@@ -265,9 +267,25 @@ GradientScene sceneOfLens(const splat::LensModel *M) {
   return G;
 }
 
-TrainingCase throughLens(const splat::LensModel *M, std::string Name,
-                         std::string Why) {
-  return caseOf(std::move(Name), std::move(Why), sceneOfLens(M), {});
+/// One for each model but the pinhole, also for those that are added later.
+void addThroughLenses(std::vector<TrainingCase> &Cases) {
+  namespace lenses = splat::lenses;
+  const std::map<const splat::LensModel *, std::string> Why{
+      {&lenses::OpenCv, "back through all twelve coefficients and the "
+                        "Jacobian's own derivative"},
+      {&lenses::Division, "back through a quotient by a square root"},
+      {&lenses::Fisheye, "back through the angle's polynomial, where "
+                         "differences of nearly equal terms cancel"},
+      {&lenses::Orthographic, "depth moves nothing on the picture"},
+      {&lenses::Equirectangular, "a Gaussian on both sides of the seam has the "
+                                 "sum of both gradients"}};
+  for (const splat::LensModel *M : lenses::all())
+    if (!M->isPinhole())
+      Cases.push_back(caseOf(
+          fmt::format("gradients-through-{}", M->EffectName),
+          Why.contains(M) ? Why.at(M)
+                          : fmt::format("back through {}", M->EffectText),
+          sceneOfLens(M), {}));
 }
 
 /// Wide Gaussians, one far beside the picture, where a pinhole's Jacobian is
@@ -400,20 +418,7 @@ void addGradients(std::vector<TrainingCase> &Cases) {
   Cases.push_back(reset(/*Antialiased=*/true));
   Cases.push_back(overBackground());
   namespace lenses = splat::lenses;
-  Cases.push_back(throughLens(&lenses::OpenCv, "gradients-through-opencv",
-                              "back through all twelve coefficients and the "
-                              "Jacobian's own derivative"));
-  Cases.push_back(throughLens(&lenses::Division, "gradients-through-division",
-                              "back through a quotient by a square root"));
-  Cases.push_back(throughLens(&lenses::Fisheye, "gradients-through-fisheye",
-                              "back through the angle's polynomial, where "
-                              "differences of nearly equal terms cancel"));
-  Cases.push_back(throughLens(&lenses::Orthographic,
-                              "gradients-through-orthographic",
-                              "depth moves nothing on the picture"));
-  Cases.push_back(throughLens(
-      &lenses::Equirectangular, "gradients-through-equirectangular",
-      "a Gaussian on both sides of the seam has the sum of both gradients"));
+  addThroughLenses(Cases);
   Cases.push_back(throughPoints(&lenses::Pinhole, /*Rolls=*/false,
                                 "gradients-through-points",
                                 "back through seven points of each, "

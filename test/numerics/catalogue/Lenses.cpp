@@ -32,7 +32,10 @@ splat::LensCoefficients someCoefficients(const LensModel *M) {
     return {-0.3};
   if (M == &lenses::Fisheye)
     return {0.06, -0.02, 0.005, -0.0006};
-  return {};
+  splat::LensCoefficients K{};
+  for (std::size_t I = 0; I < M->Keys.size(); ++I)
+    K[I] = (I % 2 == 0 ? -0.05 : 0.02) / static_cast<double>(1 + I);
+  return K;
 }
 
 splat::Scene allAround(uint32_t Count, uint32_t Seed, double Scale) {

@@ -12,7 +12,8 @@ splat::Camera lensView(const splat::LensModel *M,
                        splat::LensCoefficients K = {}, int Width = 64,
                        int Height = 48);
 
-/// Coefficients of both signs in every place that the model has.
+/// Coefficients of both signs in every place that the model has; small ones of
+/// a model that this file does not know.
 splat::LensCoefficients someCoefficients(const splat::LensModel *M);
 
 /// A turned camera for \c pointingNeedles.

@@ -2,10 +2,12 @@
 // principal point, through long lenses, on wide pictures.
 #include "Places.h"
 
-#include "lens/Models.h"
+#include "Lenses.h"
+#include "lens/Lenses.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace vorion::test {
 
@@ -65,6 +67,17 @@ HardCase crop(std::string Name, const std::string &What,
   return caseOf(std::move(Name),
                 "the principal point 11,000 px beside the picture" + What, View,
                 std::move(FoundIn));
+}
+
+/// Those of models that are added later: with small coefficients.
+void addCropsThroughOthers(std::vector<HardCase> &Cases) {
+  for (const splat::LensModel *M : lenses::all())
+    if (!M->CoversSphere && std::ranges::none_of(Cases, [&](const HardCase &C) {
+          return C.Name.starts_with("crop-") && C.View.Optics.Model == M;
+        }))
+      Cases.push_back(crop(fmt::format("crop-through-{}", M->EffectName),
+                           fmt::format(", through {}", M->EffectText),
+                           {M, someCoefficients(M)}, {}));
 }
 
 /// Lenses that bend at 11,000 px, with every term of theirs.
@@ -134,6 +147,7 @@ void addPlaces(std::vector<HardCase> &Cases) {
                        {&lenses::Division, {-0.1}}, {}));
   Cases.push_back(crop("crop-of-parallel-rays", ", of parallel rays",
                        {&lenses::Orthographic}, {"crop-by-plain-start"}));
+  addCropsThroughOthers(Cases);
 
   Cases.push_back(caseOf("long-lens",
                          "a focal length of 400,000 px: of a place, the sum "

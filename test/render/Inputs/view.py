@@ -117,7 +117,7 @@ def check_lenses():
             assert facts["error"]["psnr_db"] > 80, (name, facts["error"])
             pixel = json.loads(ask(at, "POST", "/pixel", json.dumps(asked | {"x": facts["width"] // 2, "y": facts["height"] // 2}).encode())[1])
             assert pixel["gaussians"] and all(0 <= g["index"] < scene["gaussians"] for g in pixel["gaussians"]), name
-        refused(ask(at, "POST", "/frame", json.dumps({"camera": shown | {"lens": {"camera_model": "THIN_PRISM_FISHEYE"}}}).encode()), 400)
+        refused(ask(at, "POST", "/frame", json.dumps({"camera": shown | {"lens": {"camera_model": "ORANGE"}}}).encode()), 400)
         refused(ask(at, "POST", "/frame", json.dumps({"camera": shown | {"lens": []}}).encode()), 400)
     print("lenses are drawn")
 
