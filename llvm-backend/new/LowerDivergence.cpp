@@ -264,6 +264,7 @@ bool vorion::lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
   if (vorion::callPointersInTurn(F,
                                  Analyses.getResult<UniformityInfoAnalysis>(F)))
     changed();
+  vorion::trapAtUnreachable(F);
   run(FixIrreduciblePass());
   vorion::unifyExits(F, Analyses.getResult<LoopAnalysis>(F), /*Known=*/true,
                      [](IRBuilder<> &Builder) { return Builder.getTrue(); });

@@ -24,6 +24,7 @@
 #include "llvm/IR/CFG.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/Dominators.h"
+#include "llvm/IR/InlineAsm.h"
 #include "llvm/IR/Instructions.h"
 #include "llvm/Transforms/Utils/BasicBlockUtils.h"
 #include "llvm/Transforms/Utils/Cloning.h"
@@ -200,6 +201,29 @@ void leaveLoop(const DeadEnd &End, bool Known,
 }
 
 } // namespace
+
+CallInst *vorion::createTrap(IRBuilder<> &Builder) {
+  return Builder.CreateCall(
+      InlineAsm::get(FunctionType::get(Builder.getVoidTy(), false), "unimp", "",
+                     /*hasSideEffects=*/true));
+}
+
+bool vorion::trapAtUnreachable(Function &F) {
+  bool Changed = false;
+  for (BasicBlock &Block : F) {
+    auto *End = dyn_cast<UnreachableInst>(Block.getTerminator());
+    if (!End)
+      continue;
+    const auto *Call =
+        dyn_cast_or_null<CallBase>(End->getPrevNonDebugInstruction());
+    if (Call && Call->doesNotReturn())
+      continue;
+    IRBuilder<> Builder(End);
+    createTrap(Builder);
+    Changed = true;
+  }
+  return Changed;
+}
 
 bool vorion::unifyExits(Function &F, const LoopInfo &Loops, bool Known,
                         function_ref<Value *(IRBuilder<> &)> MakeTrue) {

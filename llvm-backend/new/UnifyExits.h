@@ -15,6 +15,14 @@ class LoopInfo;
 
 namespace vorion {
 
+/// A trap, as an instruction that nothing is known of: the optimiser keeps what
+/// follows it.
+CallInst *createTrap(IRBuilder<> &Builder);
+
+/// Makes lanes that come to an `unreachable` of \p F trap, unless a call that
+/// does not return is in front of it. True if there was one.
+bool trapAtUnreachable(Function &F);
+
 /// Gives \p F one return and every path a way to it. What never comes to a
 /// return by itself, a loop without end or an `unreachable`, gets an edge to
 /// the place where the other paths from the last common branch meet: so the

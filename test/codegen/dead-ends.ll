@@ -76,3 +76,26 @@ dead:
   call void @llvm.trap()
   unreachable
 }
+
+; Code that the source calls unreachable traps; what a call does not return to needs no trap.
+; CHECK-LABEL: traps:
+; CHECK: unimp
+; CHECK: ret
+define i32 @traps(i32 %n) {
+  %c = icmp eq i32 %n, 3
+  br i1 %c, label %dead, label %end
+dead:
+  call void @side()
+  unreachable
+end:
+  ret i32 %n
+}
+
+declare void @stop() noreturn
+; CHECK-LABEL: does_not_return:
+; CHECK-NOT: unimp
+; CHECK: .Lfunc_end
+define void @does_not_return() {
+  call void @stop()
+  unreachable
+}

@@ -78,8 +78,9 @@ bool giveSwitchesDefaults(Function &F) {
 PreservedAnalyses SimtExits::run(Function &F, FunctionAnalysisManager &) {
   if (!isKernelToProcess(F))
     return PreservedAnalyses::all();
-  bool Changed = forgetNoReturn(F);
-  Changed |= giveSwitchesDefaults(F);
+  bool Changed = giveSwitchesDefaults(F);
+  Changed |= vorion::trapAtUnreachable(F);
+  Changed |= forgetNoReturn(F);
   Changed |= vorion::unifyExits(
       F, LoopInfo(DominatorTree(F)), /*Known=*/false, [](IRBuilder<> &Builder) {
         Value *One = createUniform(Builder, Builder.getInt32(1));

@@ -2,7 +2,7 @@
 
 #include "SimtInstructions.h"
 
-#include <llvm/IR/InlineAsm.h>
+#include "UnifyExits.h"
 
 using namespace llvm;
 
@@ -87,9 +87,7 @@ bool isLaneVariable(const AllocaInst &Variable) {
 void createTrap(BasicBlock &Block, BasicBlock *Next, const DebugLoc &At) {
   IRBuilder<> Builder(&Block);
   Builder.SetCurrentDebugLocation(At);
-  Builder.CreateCall(
-      InlineAsm::get(FunctionType::get(Builder.getVoidTy(), false), "unimp", "",
-                     /*hasSideEffects=*/true));
+  vorion::createTrap(Builder);
   Builder.CreateBr(Next);
 }
 
