@@ -7,7 +7,7 @@
 //   4. tests that lanes agree in are marked, and short sides of divergent
 //      branches become selects;
 //   5. loops that lanes leave apart get one exit, in the latch;
-//   6. blocks that several paths reach are executed once, unless they are short;
+//   6. blocks that several paths reach are executed once, unless short;
 //   7. splits, joins and predicates.
 // Lanes reconverge at the immediate post-dominator, however paths cross before
 // it: what is short may stay executed once for each path.
