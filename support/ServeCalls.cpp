@@ -3,13 +3,18 @@
 #include "vorion/support/ToolMessages.h"
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <fcntl.h>
+#include <iterator>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+extern "C" { // which glibc 2.36 lacks
+#include <sys/pidfd.h>
+}
 
 namespace vorion {
 namespace {
@@ -59,10 +64,17 @@ int serve(const std::function<Response(std::string_view)> &Answer) {
   return 0;
 }
 
-/// Waits for the process that serves, with nothing open but how it ends.
+/// Waits for the process that serves, and ends it when the client is gone,
+/// whatever it is doing. Nothing is open but what tells the client.
 int watch(pid_t Server) {
   ::close(STDIN_FILENO);
   ::close_range(STDERR_FILENO + 1, ~0U, 0);
+  pollfd Ends[] = {{STDOUT_FILENO, POLLRDHUP, 0},
+                   {::pidfd_open(Server, 0), POLLIN, 0}};
+  while (::poll(Ends, std::size(Ends), -1) < 0 && errno == EINTR) {
+  }
+  if (Ends[0].revents)
+    ::kill(Server, SIGKILL);
   ServerEnd End;
   while (::waitpid(Server, &End.WaitStatus, 0) < 0 && errno == EINTR) {
   }

@@ -40,7 +40,7 @@ if(EXISTS "${Tree}/lib/python3")
 endif()
 file(GLOB_RECURSE Extensions "${Top}/usr/lib/python3/*.so")
 file(GLOB Binaries "${Tree}/bin/*" "${Tree}/pocl/bin/*" "${Tree}/lib/*.so"
-     "${Tree}/pocl/lib/*.so.*.*" "${Tree}/pocl/lib/libvorion-pocl-compiler.so")
+     "${Tree}/pocl/lib/*.so.*.*")
 list(FILTER Binaries EXCLUDE REGEX "[.]cfg$")
 run(strip --strip-unneeded --remove-section=.comment --remove-section=.note ${Binaries} ${Extensions})
 # Pages of the manual and completions of shells lie where the system looks.

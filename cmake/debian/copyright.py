@@ -16,7 +16,7 @@ Upstream-Name: Vorion
 Comment:
  The programs contain code of LLVM, clang and lld (vorion-clang, vorion-compiler, vorion-link,
  vorion-llc, vorion-mc, vorion-opt, vorion-objdump, libdevice.a), of PoCL (libvorion-pocl.so,
- libvorion-pocl-compiler.so, poclcc, kernel-vorion.bc) with SLEEF and libclc, of RapidCheck
+ vorion-compiler, poclcc, kernel-vorion.bc) with SLEEF and libclc, of RapidCheck
  (splat-hard-cases), and of the header-only libraries CLI11, JSON for Modern C++, GLM, nanoflann and xxHash. PoCL's paths are those of its
  source package, below pocl/. The site of the documents (html/ of vorion-doc)
  contains scripts and styles of Material for MkDocs, and lunr.js in them.

@@ -14,15 +14,21 @@ using namespace llvm;
 
 namespace {
 
-/// \p Pass for modules of our machine, which only their functions tell.
+/// Whether \p M is for our machine, which only its functions tell. PoCL's
+/// passes compile for plain RISC-V, in vorion-compiler too.
+bool isOurs(const Module &M, const RISCVTargetMachine &TM) {
+  return any_of(M, [&](const Function &F) {
+    return !F.isDeclaration() &&
+           TM.getSubtarget<RISCVSubtarget>(F).hasVendorXVortex();
+  });
+}
+
+/// \p Pass for modules of our machine.
 template <typename Pass> class OnOurMachine : public Pass {
 public:
   explicit OnOurMachine(const RISCVTargetMachine &TM) : TM(TM) {}
   PreservedAnalyses run(Module &M, ModuleAnalysisManager &Analyses) {
-    if (any_of(M, [&](Function &F) {
-          return !F.isDeclaration() &&
-                 TM.getSubtarget<RISCVSubtarget>(F).hasVendorXVortex();
-        }))
+    if (isOurs(M, TM))
       return Pass::run(M, Analyses);
     return PreservedAnalyses::all();
   }
@@ -57,7 +63,7 @@ void vorion::registerFirstPasses(PassBuilder &PB,
         Passes.addPass(StoreOurComponents(TM));
         Passes.addPass(ShareOurVariables(TM));
       });
-  registerKeptLines(PB);
+  registerKeptLines(PB, [&TM](const Module &M) { return isOurs(M, TM); });
   // Loops have their final form, and the unroller runs soon after.
   PB.registerVectorizerStartEPCallback(
       [](FunctionPassManager &Passes, OptimizationLevel) {

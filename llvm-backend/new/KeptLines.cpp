@@ -33,10 +33,14 @@ bool hasLine(const Instruction &I) {
 
 class NoteLines : public PassInfoMixin<NoteLines> {
 public:
-  explicit NoteLines(std::shared_ptr<Lines> Noted) : Noted(std::move(Noted)) {}
+  NoteLines(std::shared_ptr<Lines> Noted,
+            std::function<bool(const Module &)> IsOurs)
+      : Noted(std::move(Noted)), IsOurs(std::move(IsOurs)) {}
 
   PreservedAnalyses run(Module &M, ModuleAnalysisManager &) {
     Noted->clear();
+    if (!IsOurs(M))
+      return PreservedAnalyses::all();
     Type *I32 = Type::getInt32Ty(M.getContext());
     const unsigned Kind = M.getMDKindID(Note);
     for (Function &F : M)
@@ -53,6 +57,7 @@ public:
 
 private:
   std::shared_ptr<Lines> Noted;
+  std::function<bool(const Module &)> IsOurs;
 };
 
 class RestoreLines : public PassInfoMixin<RestoreLines> {
@@ -90,11 +95,12 @@ private:
 
 } // namespace
 
-void vorion::registerKeptLines(PassBuilder &PB) {
+void vorion::registerKeptLines(PassBuilder &PB,
+                               std::function<bool(const Module &)> IsOurs) {
   const auto Noted = std::make_shared<Lines>();
   PB.registerPipelineStartEPCallback(
-      [Noted](ModulePassManager &Passes, OptimizationLevel) {
-        Passes.addPass(NoteLines(Noted));
+      [Noted, IsOurs](ModulePassManager &Passes, OptimizationLevel) {
+        Passes.addPass(NoteLines(Noted, IsOurs));
       });
   PB.registerOptimizerLastEPCallback(
       [Noted](ModulePassManager &Passes, OptimizationLevel) {

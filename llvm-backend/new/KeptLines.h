@@ -10,13 +10,17 @@
 #ifndef VORION_LLVM_BACKEND_KEPTLINES_H
 #define VORION_LLVM_BACKEND_KEPTLINES_H
 
+#include <functional>
+
 namespace llvm {
+class Module;
 class PassBuilder;
 
 namespace vorion {
 
-/// Nothing happens to a module without lines.
-void registerKeptLines(PassBuilder &PB);
+/// Nothing happens to a module without lines, or that \p IsOurs refuses.
+void registerKeptLines(PassBuilder &PB,
+                       std::function<bool(const Module &)> IsOurs);
 
 } // namespace vorion
 } // namespace llvm

@@ -1,12 +1,14 @@
 /// The compiler of OpenCL programs as a process that serves the driver
-/// (CompilerMessages.h): the machine's compiler and linker.
+/// (CompilerMessages.h): PoCL's front end and passes (ProgramServer.h), and the
+/// machine's compiler and linker (MachineCode.h).
 
-#include "MachineCode.h"
+#include "ProgramServer.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Environment.h"
 #include "vorion/support/HelpText.h"
 #include "vorion/support/ServeCalls.h"
 #include "vorion/support/Tool.h"
+#include "vorion/support/ToolMessages.h"
 #include "vorion/support/Version.h"
 
 #include "llvm/Support/raw_ostream.h"
@@ -29,17 +31,11 @@ constexpr std::string_view Usage =
     "over its standard input. vorion-clang compiles files.\n"
     "\n";
 
-Response answer(std::string_view Text, const std::string &Bin) {
-  ImageRequest Request;
-  if (!isReadInto(Request, Text))
-    return {{}, false};
-  ImageAnswer Answer = makeImage(Request, Bin);
+/// What was printed, by LLVM's streams too.
+std::string allPrinted() {
   llvm::outs().flush();
   llvm::errs().flush();
-  Answer.Printed = takePrinted();
-  return {textOf(Answer),
-          // Options of LLVM are those of a process.
-          Request.Options.empty() && !Answer.Image.empty()};
+  return takePrinted();
 }
 
 int run(int Argc, char **Argv) {
@@ -59,12 +55,17 @@ int run(int Argc, char **Argv) {
     if (!environmentVariable(Name))
       unsetenv(Name);
   std::error_code Failed;
-  const std::string Bin =
-      std::filesystem::read_symlink("/proc/self/exe", Failed)
-          .parent_path()
-          .string();
-  return serveCalls(
-      [&](std::string_view Request) { return answer(Request, Bin); });
+  const std::filesystem::path Bin =
+      std::filesystem::read_symlink("/proc/self/exe", Failed).parent_path();
+  const MakeImage Make = [&](const MachineRequest &Request) {
+    return makeImage(Request, Bin.string());
+  };
+  return serveCalls([&](std::string_view Request) {
+    Response Given;
+    Given.Text = answerProgramRequest(Request, Bin.parent_path().string(), Make,
+                                      allPrinted, Given.MayStay);
+    return Given;
+  });
 }
 
 } // namespace

@@ -28,7 +28,11 @@ namespace {
 using Words = std::vector<std::string>;
 
 constexpr const char *NoMemory =
-    "memory ran out while a kernel was compiled, expected more";
+    "memory ran out while it was compiled, expected more";
+constexpr const char *NotCompiled =
+    "cannot be compiled for the machine, expected a kernel that can";
+constexpr const char *NotLinked =
+    "cannot be linked, expected a kernel that can";
 
 /// The call of the compiler proper that vorion-clang makes for \p Line. Empty,
 /// and messages on standard error, if there is none.
@@ -92,7 +96,7 @@ Expected<std::string> linkObject(const MemoryFile &Object,
 
 /// What vorion-clang is called with to make an object of \p Bitcode on standard
 /// output.
-Words commandLine(const ImageRequest &Request, const std::string &Bin,
+Words commandLine(const MachineRequest &Request, const std::string &Bin,
                   const MemoryFile &Bitcode) {
   Words Line = {Bin + "/vorion-clang",
                 "-x",
@@ -109,28 +113,29 @@ Words commandLine(const ImageRequest &Request, const std::string &Bin,
 
 } // namespace
 
-ImageAnswer makeImage(const ImageRequest &Request, const std::string &Bin) {
-  ImageAnswer Made;
+MachineAnswer makeImage(const MachineRequest &Request, const std::string &Bin) {
+  MachineAnswer Made;
   const MemoryFile Bitcode(Request.Bitcode), Object, Out;
   if (!Bitcode.isGood() || !Object.isGood() || !Out.isGood()) {
-    reportError("vorion-compiler", {"", NoMemory});
+    Made.Problem = NoMemory;
     return Made;
   }
   Words Call = compilerCall(commandLine(Request, Bin, Bitcode));
   {
     const OutputTo Compiled(Object);
-    Made.IsCompiled = !Call.empty() && runCompiler(std::move(Call));
+    if (Call.empty() || !runCompiler(std::move(Call))) {
+      Made.Problem = NotCompiled;
+      return Made;
+    }
   }
-  if (!Made.IsCompiled)
-    return Made;
   Expected<std::string> Program = linkObject(Object, Out);
-  if (!Program) {
-    reportError("vorion-compiler", Program.error());
-    return Made;
-  }
-  Made.Image = std::move(*Program);
-  if (Request.WantsObject)
+  if (Program) {
+    Made.Image = std::move(*Program);
     Made.Object = Object.contents();
+  } else {
+    reportError("vorion-compiler", Program.error());
+    Made.Problem = NotLinked;
+  }
   return Made;
 }
 

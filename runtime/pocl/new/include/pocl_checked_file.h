@@ -52,6 +52,9 @@ void pocl_note_cache_problem(const char *text);
  * this thread keeps another reason already. */
 void pocl_note_file_problem(const char *path, const char *what);
 
+/* The same with such a sentence of another process. */
+void pocl_adopt_file_problem(const char *text);
+
 /* The sentence of this thread's first noted problem since the last call of
  * pocl_forget_file_problem(); NULL if there is none. */
 POCL_EXPORT

@@ -20,11 +20,11 @@ std::string takePrinted();
 
 /// Serves requests over standard input, a socket (ToolMessages.h), in a daemon
 /// process: the original process exits at once, so that its parent need not
-/// wait. The daemon exits when its client disconnects, after ten seconds
-/// without a request, after a response that says so, and when its memory has
-/// grown much, because clang does not free memory. If it ends before it gave a
-/// response, for whatever reason, a second process sends a ServerEnd to
-/// standard output, a socket as well. Returns the exit code.
+/// wait. The daemon exits when its client disconnects, whatever it is doing,
+/// after ten seconds without a request, after a response that says so, and when
+/// its memory has grown much, because clang does not free memory. If it ends
+/// before it gave a response, for whatever reason, a second process sends a
+/// ServerEnd to standard output, a socket as well. Returns the exit code.
 int serveCalls(const std::function<Response(std::string_view)> &Answer);
 
 } // namespace vorion

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -60,6 +61,9 @@ inline std::optional<std::string> receiveText(int Socket) {
   return Text;
 }
 
+/// The length of a text in C that is null.
+inline constexpr uint64_t NoText = ~uint64_t{0};
+
 /// Writes numbers, as 64 bits, and texts, each after its length. A structure
 /// has one function template visit(Archive &, Structure &) that names its
 /// fields, which serves for FieldWriter and FieldReader.
@@ -74,20 +78,32 @@ public:
     raw(Text.size());
     Bytes += Text;
   }
+  /// May be null.
+  void text(char *&Text) {
+    raw(Text ? std::strlen(Text) : NoText);
+    if (Text)
+      Bytes += Text;
+  }
+  template <typename Element, typename Number>
+  void array(Element *&Elements, Number &Count) {
+    number(Count);
+    for (Number I = 0; I != Count; ++I)
+      visit(*this, Elements[I]);
+  }
   template <typename List> void list(List &Elements) {
     raw(Elements.size());
     for (auto &Element : Elements)
       visit(*this, Element);
   }
 
-protected:
+private:
   void raw(uint64_t Value) {
     Bytes.append(reinterpret_cast<const char *>(&Value), sizeof(Value));
   }
 };
 
 /// Reads what FieldWriter wrote. Bytes that are missing count as zeros, and
-/// isDone() tells.
+/// isDone() tells. Texts and arrays of C get memory of malloc().
 class FieldReader {
 public:
   explicit FieldReader(std::string_view Bytes) : Rest(Bytes) {}
@@ -99,13 +115,30 @@ public:
     Value = static_cast<Number>(raw());
   }
   void text(std::string &Text) { Text = take(raw()); }
+  void text(char *&Text) {
+    const uint64_t Size = raw();
+    Text = nullptr;
+    if (Size == NoText)
+      return;
+    const std::string_view Taken = take(Size);
+    Text = strndup(Taken.data(), Taken.size());
+  }
+  template <typename Element, typename Number>
+  void array(Element *&Elements, Number &Count) {
+    Count = static_cast<Number>(count());
+    Elements = Count
+                   ? static_cast<Element *>(std::calloc(Count, sizeof(Element)))
+                   : nullptr;
+    for (Number I = 0; I != Count; ++I)
+      visit(*this, Elements[I]);
+  }
   template <typename List> void list(List &Elements) {
     Elements.resize(count());
     for (auto &Element : Elements)
       visit(*this, Element);
   }
 
-protected:
+private:
   uint64_t raw() {
     uint64_t Value = 0;
     if (Rest.size() < sizeof(Value)) {
@@ -131,13 +164,15 @@ protected:
     return 0;
   }
 
-private:
   std::string_view Rest;
   bool IsShort = false;
 };
 
 template <typename Archive> void visit(Archive &A, std::string &Text) {
   A.text(Text);
+}
+template <typename Archive> void visit(Archive &A, std::size_t &Number) {
+  A.number(Number);
 }
 
 /// All of \p Value as one text.

@@ -153,6 +153,11 @@ void pocl_note_file_problem(const char *path, const char *what) {
   pocl_note_cache_problem(text);
 }
 
+void pocl_adopt_file_problem(const char *text) {
+  if (problem[0] == 0)
+    snprintf(problem, sizeof(problem), "%s", text);
+}
+
 const char *pocl_file_problem(void) { return problem[0] ? problem : NULL; }
 
 void pocl_forget_file_problem(void) { problem[0] = 0; }

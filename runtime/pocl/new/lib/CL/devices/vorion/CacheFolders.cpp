@@ -1,3 +1,5 @@
+#include "CacheFolders.h"
+
 #include "vorion/support/KernelCacheFolder.h"
 #include "vorion/support/TemporaryFolder.h"
 #include "vorion/support/Trust.h"
@@ -30,6 +32,8 @@ struct PrivateFolder {
 
 std::optional<PrivateFolder> Private;
 
+std::string Used;
+
 int fail(const std::string &Text) {
   pocl_note_cache_problem(Text.c_str());
   return -1;
@@ -46,13 +50,17 @@ int give(const std::string &Folder, char *Path) {
 
 } // namespace
 
+std::string vorion::usedCacheFolder() { return Used; }
+
 int pocl_find_cache_folder(int IsCached, char *Path) {
   const KernelCacheFolder Found =
       findKernelCacheFolder(IsCached ? "kcache" : "uncached");
   if (!Found.Problem.empty())
     return fail(Found.Problem);
-  if (!Found.Path.empty())
+  if (!Found.Path.empty()) {
+    Used = Found.Path;
     return give(Found.Path, Path);
+  }
   if (!Private) {
     auto Made = TemporaryFolder::make("vorion-kernels");
     if (!Made)
@@ -61,7 +69,8 @@ int pocl_find_cache_folder(int IsCached, char *Path) {
                                           ? "this user has no home"
                                           : Found.PassedOver.front());
   }
-  return give(Private->Folder.path(), Path);
+  Used = Private->Folder.path();
+  return give(Used, Path);
 }
 
 void pocl_tell_of_private_cache() {

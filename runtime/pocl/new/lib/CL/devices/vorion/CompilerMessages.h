@@ -1,41 +1,108 @@
-/// What the driver and vorion-compiler, which makes images of kernels, send
-/// each other (vorion/support/ToolMessages.h).
+/// What the driver and vorion-compiler send each other: a request with a
+/// program and what to do with it, and an answer.
 #pragma once
 
-#include "vorion/support/ToolMessages.h"
+#include "KernelModule.h"
+#include "ProgramFields.h"
 
 #include <string>
 #include <vector>
 
 namespace vorion {
 
-/// Asks for a kernel's image.
-struct ImageRequest {
-  std::string Bitcode; ///< with the kernel's entry in the table of kernels
-  bool Optimize = true;
-  /// Whether the object is wanted, too, from which images of several kernels
-  /// are linked.
-  bool WantsObject = false;
-  /// Further options of vorion-clang.
-  std::vector<std::string> Options;
+enum class CompilerTask {
+  Build,   ///< compiles Source: as pocl_llvm_build_program()
+  Link,    ///< links Binaries: as pocl_llvm_link_program()
+  Kernels, ///< describes the kernels of the one binary
+  Image,   ///< makes an image of a kernel of the one binary
+  Triple,  ///< whether the one binary is of a target triple
 };
-template <typename Archive> void visit(Archive &A, ImageRequest &Request) {
-  A.text(Request.Bitcode);
-  A.number(Request.Optimize);
-  A.number(Request.WantsObject);
-  A.list(Request.Options);
+
+struct NamedText {
+  std::string Name, Text;
+};
+template <typename Archive> void visit(Archive &A, NamedText &Named) {
+  A.text(Named.Name);
+  A.text(Named.Text);
 }
 
-struct ImageAnswer {
-  std::string Image; ///< an ELF file; empty if the kernel has an error
-  std::string Object;
-  bool IsCompiled = false; ///< there is no image because of the link
-  std::string Printed;     ///< errors, warnings and remarks
+struct CompilerRequest {
+  CompilerTask Task = CompilerTask::Build;
+  std::string Folder; ///< the program's current one
+  _cl_device_id Device{};
+  /// What the device adds to a program's hash and to the compiler's options.
+  std::string DeviceHash, DeviceOptions;
+
+  // The program.
+  std::string Options;
+  cl_program_binary_type BinaryType = 0;
+  bool FlushesDenorms = false;
+  std::string Hash; ///< in the kernel cache; empty if it has none yet
+  std::string Source;
+  std::vector<NamedText> Headers;
+  std::vector<std::string> Binaries;
+  std::string Triple;        ///< a part of it
+  bool LinksLibrary = false; ///< of built-in functions
+  bool IsNew = false;        ///< whether it gets a hash
+
+  // The kernel.
+  KernelDescription Kernel;
+  bool IsSpecialized = false; ///< for its group size
+  bool HasOffset = true;
+  bool IsRangePart = false;
+  bool IsOptimized = true;
+  /// Whether the object and the bitcode are wanted beside the image.
+  bool WantsObject = false, WantsBitcode = false;
+  std::vector<std::string> MachineOptions; ///< of vorion-clang
 };
-template <typename Archive> void visit(Archive &A, ImageAnswer &Answer) {
+template <typename Archive> void visit(Archive &A, CompilerRequest &Request) {
+  A.number(Request.Task);
+  A.text(Request.Folder);
+  visit(A, Request.Device);
+  A.text(Request.DeviceHash);
+  A.text(Request.DeviceOptions);
+  A.text(Request.Options);
+  A.number(Request.BinaryType);
+  A.number(Request.FlushesDenorms);
+  A.text(Request.Hash);
+  A.text(Request.Source);
+  A.list(Request.Headers);
+  A.list(Request.Binaries);
+  A.text(Request.Triple);
+  A.number(Request.LinksLibrary);
+  A.number(Request.IsNew);
+  visit(A, Request.Kernel);
+  A.number(Request.IsSpecialized);
+  A.number(Request.HasOffset);
+  A.number(Request.IsRangePart);
+  A.number(Request.IsOptimized);
+  A.number(Request.WantsObject);
+  A.number(Request.WantsBitcode);
+  A.list(Request.MachineOptions);
+}
+
+struct CompilerAnswer {
+  cl_int Status = CL_SUCCESS; ///< as PoCL's functions give it
+  std::string Hash, Binary;   ///< of the program
+  std::string Log;            ///< to be added to the program's
+  std::string FileProblem;    ///< as pocl_file_problem() gives it; may be empty
+  ProgramKernels Kernels;
+  std::string Image; ///< an ELF file; empty if the kernel has an error
+  std::string Object, Bitcode;
+  std::string Problem; ///< why there is no image: a line
+  std::string Printed; ///< on standard error
+};
+template <typename Archive> void visit(Archive &A, CompilerAnswer &Answer) {
+  A.number(Answer.Status);
+  A.text(Answer.Hash);
+  A.text(Answer.Binary);
+  A.text(Answer.Log);
+  A.text(Answer.FileProblem);
+  visit(A, Answer.Kernels);
   A.text(Answer.Image);
   A.text(Answer.Object);
-  A.number(Answer.IsCompiled);
+  A.text(Answer.Bitcode);
+  A.text(Answer.Problem);
   A.text(Answer.Printed);
 }
 

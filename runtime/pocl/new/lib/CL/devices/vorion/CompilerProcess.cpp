@@ -2,8 +2,11 @@
 
 #include "vorion/support/ToolMessages.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fcntl.h>
+#include <iterator>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <spawn.h>
@@ -11,16 +14,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
-#include <vector>
-
-extern char **environ;
 
 namespace vorion {
 
 namespace {
 
 constexpr int LimitReached = 5; // of vorion::ExitCode
-constexpr const char *Wanted = ", expected an image or errors in the kernel";
+constexpr const char *Wanted = ", expected errors or a result";
 
 /// Which file a descriptor is of; 0 of none.
 ino_t fileOf(int Descriptor) {
@@ -81,9 +81,11 @@ struct Server {
                   std::to_string(WTERMSIG(Status)) + ", " +
                   strsignal(WTERMSIG(Status)) + ")" + Wanted,
               {}};
+    if (WEXITSTATUS(Status) == LimitReached)
+      return {"the compiler reached a limit", Ended.Printed, true};
     return {"the compiler ended with exit code " +
                 std::to_string(WEXITSTATUS(Status)) + Wanted,
-            Ended.Printed, WEXITSTATUS(Status) == LimitReached};
+            Ended.Printed};
   }
 };
 
@@ -102,7 +104,7 @@ std::optional<Ends> makeSocket() {
 /// What is started ends at once and leaves the compiler to nobody, so that a
 /// program which waits for its own children is not kept. Gives an error's
 /// number.
-int spawn(const std::string &Compiler, int Calls, int End) {
+int spawn(const CompilerProgram &Compiler, int Calls, int End) {
   posix_spawn_file_actions_t Files;
   posix_spawn_file_actions_init(&Files);
   posix_spawn_file_actions_adddup2(&Files, Calls, STDIN_FILENO);
@@ -119,11 +121,16 @@ int spawn(const std::string &Compiler, int Calls, int End) {
   posix_spawnattr_setsigdefault(&Attributes, &All);
   posix_spawnattr_setflags(&Attributes,
                            POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  std::string Name = Compiler, Option = ServeCalls;
+  std::string Name = Compiler.File, Option = ServeCalls;
   char *const Arguments[] = {Name.data(), Option.data(), nullptr};
+  std::vector<char *> Environment;
+  Environment.reserve(Compiler.Environment.size() + 1);
+  for (const std::string &Variable : Compiler.Environment)
+    Environment.push_back(const_cast<char *>(Variable.c_str()));
+  Environment.push_back(nullptr);
   pid_t Child = 0;
-  const int Problem = posix_spawn(&Child, Compiler.c_str(), &Files, &Attributes,
-                                  Arguments, environ);
+  const int Problem = posix_spawn(&Child, Name.c_str(), &Files, &Attributes,
+                                  Arguments, Environment.data());
   posix_spawnattr_destroy(&Attributes);
   posix_spawn_file_actions_destroy(&Files);
   while (Problem == 0 && waitpid(Child, nullptr, 0) < 0 && errno == EINTR) {
@@ -131,7 +138,7 @@ int spawn(const std::string &Compiler, int Calls, int End) {
   return Problem;
 }
 
-std::variant<Server, CompilerFailure> start(const std::string &Compiler) {
+std::variant<Server, CompilerFailure> start(const CompilerProgram &Compiler) {
   auto Calls = makeSocket(), End = makeSocket();
   const int Problem = Calls && End ? spawn(Compiler, Calls->Theirs.number(),
                                            End->Theirs.number())
@@ -139,25 +146,30 @@ std::variant<Server, CompilerFailure> start(const std::string &Compiler) {
   if (Problem == 0)
     return Server{std::move(Calls->Ours), std::move(End->Ours)};
   return CompilerFailure{
-      Compiler + " cannot be started: " + strerror(Problem), {}, true};
+      Compiler.File + " cannot be started: " + strerror(Problem), {}, true};
 }
 
-/// Compilers that nobody uses.
+/// Compilers that nobody uses, with their environments: what a program sets
+/// since their start they do not have.
 class Idle {
 public:
-  std::optional<Server> take() {
+  std::optional<Server> take(const std::vector<std::string> &Environment) {
     const std::lock_guard Hold(Lock);
     forget();
-    if (Servers.empty())
+    const auto Found =
+        std::find_if(Servers.rbegin(), Servers.rend(), [&](const auto &Entry) {
+          return Entry.first == Environment;
+        });
+    if (Found == Servers.rend())
       return std::nullopt;
-    Server Last = std::move(Servers.back());
-    Servers.pop_back();
+    Server Last = std::move(Found->second);
+    Servers.erase(std::next(Found).base());
     return Last;
   }
-  void keep(Server S) {
+  void keep(const std::vector<std::string> &Environment, Server S) {
     const std::lock_guard Hold(Lock);
     forget();
-    Servers.push_back(std::move(S));
+    Servers.emplace_back(Environment, std::move(S));
   }
 
 private:
@@ -169,7 +181,7 @@ private:
     Owner = getpid();
   }
   std::mutex Lock;
-  std::vector<Server> Servers;
+  std::list<std::pair<std::vector<std::string>, Server>> Servers;
   pid_t Owner = getpid();
 };
 
@@ -182,16 +194,15 @@ Idle &idle() {
 } // namespace
 
 std::variant<std::string, CompilerFailure>
-askCompiler(const std::string &Compiler, const std::string &Request,
-            bool Stays) {
+askCompiler(const CompilerProgram &Compiler, const std::string &Request) {
   // One that is idle may have ended for many reasons, as it does after some
   // time.
-  while (Stays) {
-    auto Used = idle().take();
+  while (Compiler.Stays) {
+    auto Used = idle().take(Compiler.Environment);
     if (!Used)
       break;
     if (auto Response = Used->call(Request)) {
-      idle().keep(std::move(*Used));
+      idle().keep(Compiler.Environment, std::move(*Used));
       return *Response;
     }
   }
@@ -202,8 +213,8 @@ askCompiler(const std::string &Compiler, const std::string &Request,
       return *Problem;
     auto &Made = std::get<Server>(New);
     if (auto Response = Made.call(Request)) {
-      if (Stays)
-        idle().keep(std::move(Made));
+      if (Compiler.Stays)
+        idle().keep(Compiler.Environment, std::move(Made));
       return *Response;
     }
     Why = Made.failure();

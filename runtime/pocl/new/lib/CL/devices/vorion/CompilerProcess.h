@@ -5,6 +5,7 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace vorion {
 
@@ -14,17 +15,29 @@ struct CompilerFailure {
   std::string Text;
   /// What it printed before, such as a fatal error of LLVM.
   std::string Printed;
-  /// Whether it ran out of memory, or could not be started: the kernel may be
+  /// Whether it ran out of memory, or could not be started: the program may be
   /// good.
   bool LackedResources = false;
+
+  /// Text and what was printed, or the beginning of it.
+  std::string message() const {
+    constexpr size_t MaxPrinted = 65536;
+    return Printed.empty() ? Text : Text + "\n" + Printed.substr(0, MaxPrinted);
+  }
 };
 
-/// The response of \p Compiler, a file, to \p Request: of a process that is
-/// idle, or of a new one. A new one gets the request once more if the first
-/// ends without a response. With \p Stays false, the process serves this
-/// request only.
+/// A program that is started as the compiler.
+struct CompilerProgram {
+  std::string File;
+  std::vector<std::string> Environment; ///< NAME=VALUE
+  /// Whether it may serve another request.
+  bool Stays = true;
+};
+
+/// The response of \p Compiler to \p Request: of a process that is idle, or of
+/// a new one. A new one gets the request once more if the first ends without a
+/// response.
 std::variant<std::string, CompilerFailure>
-askCompiler(const std::string &Compiler, const std::string &Request,
-            bool Stays);
+askCompiler(const CompilerProgram &Compiler, const std::string &Request);
 
 } // namespace vorion

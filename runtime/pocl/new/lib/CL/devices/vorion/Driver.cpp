@@ -6,6 +6,7 @@
 #include "KnownPrograms.h"
 #include "MemoryOperations.h"
 #include "Messages.h"
+#include "ProgramCompiler.h"
 #include "ProgramKernels.h"
 #include "vorion/support/Environment.h"
 
@@ -174,17 +175,13 @@ int buildBinary(cl_program Program, cl_uint Index, int Link, int Spir) {
   return pocl_driver_build_binary(Program, Index, Link, Spir);
 }
 
-int setupMetadata(cl_device_id Device, cl_program Program, unsigned Index) {
-  if (!Program->llvm_irs[Index]) {
-    if (takeKernels(Program, Index))
-      return 1;
-    if (pocl_llvm_read_program_llvm_irs(Program, Index, nullptr))
-      return 0;
-  }
-  const int IsSetUp = pocl_driver_setup_metadata(Device, Program, Index);
-  if (IsSetUp)
-    keepKernels(Program, Index);
-  return IsSetUp;
+int setupMetadata(cl_device_id, cl_program Program, unsigned Index) {
+  if (takeKernels(Program, Index))
+    return 1;
+  if (!describeKernels(Program, Index))
+    return 0;
+  keepKernels(Program, Index);
+  return 1;
 }
 
 // --- Commands and events. The lock of an event or queue is held by the caller

@@ -1,5 +1,5 @@
 #include "KernelCache.h"
-#include "KernelModule.h"
+#include "ProgramCompiler.h"
 
 extern "C" {
 #include "pocl_cache.h"
@@ -100,47 +100,44 @@ KernelCache::Problem KernelCache::problem(_cl_command_node *Command,
 KernelCache::Problem KernelCache::make(_cl_command_node *Command,
                                        cl_kernel Kernel, bool Specialize,
                                        const std::string &ImagePath) {
-  const unsigned DeviceIndex = Command->program_device_i;
   const std::string Base = fs::path(ImagePath).replace_extension().string();
   const char *Options = Kernel->program->compiler_options;
+  const _cl_command_run &Run = Command->command.run;
+  constexpr size_t AnySize[3] = {0, 0, 0};
+
+  CompilerRequest Request = requestFor(
+      Kernel->program, Command->program_device_i, CompilerTask::Image);
+  Request.Kernel = describe(Kernel, Specialize ? Run.pc.local_size : AnySize,
+                            Command->device->max_work_group_size);
+  Request.IsSpecialized = Specialize;
+  Request.HasOffset =
+      std::any_of(Run.pc.global_offset, Run.pc.global_offset + 3,
+                  [](size_t Offset) { return Offset != 0; });
+  Request.IsRangePart = Run.is_range_part;
+  Request.IsOptimized = !Options || !strstr(Options, "-cl-opt-disable");
+  Request.WantsObject = pocl_is_option_set("VORION_KERNEL_FOLDER");
+  Request.WantsBitcode =
+      pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0);
 
   pocl_forget_file_problem();
+  CompilerAnswer Answer;
   std::string Text;
   Problem::Cause Of = Problem::Cause::Kernel;
-  void *Module = nullptr;
-  if (pocl_mkdir_p(fs::path(Base).parent_path().c_str()))
+  if (pocl_mkdir_p(fs::path(Base).parent_path().c_str())) {
     Text = "cannot make the folder of " + Base;
-  else if (pocl_llvm_generate_workgroup_function_nowrite(
-               DeviceIndex, Command->device, Kernel, Command, &Module,
-               Specialize) ||
-           !Module)
-    Text = "cannot make a work-group function of it";
-  if (Module) {
-    const size_t AnySize[3] = {0, 0, 0};
-    ImageRequest Request;
-    Request.Optimize = !Options || !strstr(Options, "-cl-opt-disable");
-    Request.WantsObject = pocl_is_option_set("VORION_KERNEL_FOLDER");
-    Text = finishKernelModule(
-        Module,
-        describe(Kernel,
-                 Specialize ? Command->command.run.pc.local_size : AnySize,
-                 Command->device->max_work_group_size),
-        Request.Bitcode);
-    pocl_destroy_llvm_module(Module, Kernel->context);
-    if (Text.empty() &&
-        pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0))
-      Text = leave(Base + ".bc", Request.Bitcode);
-    if (Text.empty()) {
-      const MadeImage Made = ToolSet.makeImage(Request);
-      Text = Made.Problem;
-      if (Made.Of == MadeImage::Cause::Resources)
-        Of = Problem::Cause::Resources;
-      if (Text.empty() && Request.WantsObject)
-        Text = leave(Base + ".o", Made.Object);
-      if (Text.empty())
-        Text = keep(ImagePath, Made.Image);
-    }
+  } else if (const auto Why = ToolSet.ask(Request, Answer)) {
+    Text = Why->message();
+    if (Why->LackedResources)
+      Of = Problem::Cause::Resources;
+  } else if (!Answer.Problem.empty()) {
+    Text = Answer.Problem + "\n" + Answer.Printed;
   }
+  if (Text.empty() && Request.WantsBitcode)
+    Text = leave(Base + ".bc", Answer.Bitcode);
+  if (Text.empty() && Request.WantsObject)
+    Text = leave(Base + ".o", Answer.Object);
+  if (Text.empty())
+    Text = keep(ImagePath, Answer.Image);
   if (Text.empty())
     return {};
   if (pocl_file_problem())

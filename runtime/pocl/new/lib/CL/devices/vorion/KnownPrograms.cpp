@@ -14,7 +14,6 @@ extern "C" {
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <link.h>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -112,17 +111,9 @@ std::string lineOf(const fs::path &File) {
   return stateOf(File) + " " + File.string() + "\n";
 }
 
-int addCompiler(dl_phdr_info *Info, size_t, void *Files) {
-  const std::string_view Path(Info->dlpi_name);
-  for (const char *Name : {"/libLLVM", "/libclang"})
-    if (Path.find(Name) != Path.npos)
-      *static_cast<std::string *>(Files) += lineOf(Info->dlpi_name);
-  return 0;
-}
-
-/// What made a program, beside what the fingerprint of the tools covers: clang,
-/// and the headers in front of every program. A line each.
-std::string compilerFiles() {
+/// What made a program, beside what the fingerprint of the tools covers: the
+/// headers in front of every program. A line each.
+std::string headerFiles() {
   std::string Files;
   char Data[POCL_MAX_PATHNAME_LENGTH];
   pocl_get_private_datadir(Data);
@@ -130,7 +121,6 @@ std::string compilerFiles() {
   for (const auto &Entry :
        fs::directory_iterator(fs::path(Data) / "include", Error))
     Files += lineOf(Entry.path());
-  dl_iterate_phdr(addCompiler, &Files);
   return Files;
 }
 
@@ -204,7 +194,7 @@ void keepKnownProgram(cl_program Program, cl_uint Index, const Tools &ToolSet) {
   std::memcpy(Hash, Built.data(), sizeof(Hash));
   if (Place.empty())
     return;
-  const std::string Known = Built + compilerFiles();
+  const std::string Known = Built + headerFiles();
   pocl_write_checked_file(Place.c_str(), Known.data(), Known.size());
 }
 

@@ -1,6 +1,6 @@
 /// Programs that were built from the same text before. PoCL names a program in
 /// the kernel cache by its preprocessed text, and so needs clang to find it. To
-/// load clang takes longer than most small kernels. A text that includes no
+/// start clang takes longer than most small kernels. A text that includes no
 /// files but ours always gives the same program, and the kernel cache keeps
 /// which.
 #pragma once

@@ -1,14 +1,12 @@
 #include "Tools.h"
 
-#include "CompilerLibrary.h"
-#include "CompilerProcess.h"
+#include "CacheFolders.h"
 #include "FileState.h"
 #include "vorion/support/Environment.h"
 #include "vorion/support/Hash.h"
 
 extern "C" {
-#include "config.h"
-#include "pocl_util.h"
+#include "pocl_checked_file.h"
 }
 
 #include <algorithm>
@@ -18,6 +16,8 @@ extern "C" {
 #include <iomanip>
 #include <set>
 #include <sstream>
+
+extern char **environ;
 
 namespace fs = std::filesystem;
 
@@ -34,12 +34,22 @@ fs::path libraryFile() {
   return fs::canonical(Info.dli_fname, Error);
 }
 
-/// Where a message of the compiler is cut off.
-constexpr size_t MaxPrinted = 65536;
-
 /// Options of vorion-clang, with blanks between and in quotes if they have
 /// some: which remarks to print, and -mllvm (docs/backend.md).
 const char *remarkOptions() { return environmentVariable("VORION_REMARKS"); }
+
+/// This process's, with the cache folder that it uses: perhaps one of its own,
+/// or one that was named from another current folder.
+std::vector<std::string> compilerEnvironment() {
+  constexpr std::string_view Cache = "POCL_CACHE_DIR=";
+  std::vector<std::string> All;
+  for (char **Variable = environ; Variable && *Variable; ++Variable)
+    if (!std::string_view(*Variable).starts_with(Cache))
+      All.emplace_back(*Variable);
+  if (const std::string Folder = usedCacheFolder(); !Folder.empty())
+    All.push_back(std::string(Cache) + Folder);
+  return All;
+}
 
 /// Remarks change the options of LLVM, which one process keeps for all calls.
 bool mayStay() {
@@ -93,8 +103,7 @@ std::string Tools::compiler() const { return Root + "/bin/vorion-compiler"; }
 
 std::string Tools::fingerprint() const {
   std::vector<fs::path> Files = {
-      libraryFile(), pocl::compilerLibraryFile(), compiler(),
-      fs::path(Root) / "bin" / "vorion-clang.cfg",
+      libraryFile(), compiler(), fs::path(Root) / "bin" / "vorion-clang.cfg",
       fs::path(Root) / "pocl" / "share" / "pocl" / "kernel-vorion.bc"};
   std::error_code Error;
   for (const char *Folder : {"lib/vorion", "include/vorion"})
@@ -109,35 +118,30 @@ std::string Tools::fingerprint() const {
   return std::to_string(fnv1a(All));
 }
 
-MadeImage Tools::makeImage(ImageRequest Request) const {
-  const auto Refuse = [](std::string Text, const std::string &Printed,
-                         MadeImage::Cause Of) {
-    if (!Printed.empty())
-      Text += "\n" + Printed.substr(0, MaxPrinted);
-    return MadeImage{{}, {}, std::move(Text), Of};
-  };
-  using enum MadeImage::Cause;
+std::optional<CompilerFailure> Tools::ask(CompilerRequest &Request,
+                                          CompilerAnswer &Answer) const {
   if (!Problem.empty())
-    return Refuse(Problem, {}, Resources);
+    return CompilerFailure{Problem, {}, true};
+  std::error_code Failed;
+  Request.Folder = fs::current_path(Failed).string();
   std::istringstream Remarks(remarkOptions() ? remarkOptions() : "");
   for (std::string Option; Remarks >> std::quoted(Option);)
-    Request.Options.push_back(Option);
-  const auto Response = askCompiler(compiler(), textOf(Request), mayStay());
-  if (const auto *Why = std::get_if<CompilerFailure>(&Response))
-    return Refuse(Why->Text, Why->Printed,
-                  Why->LackedResources ? Resources : Kernel);
-  ImageAnswer Answer;
+    Request.MachineOptions.push_back(Option);
+  auto Response = askCompiler({compiler(), compilerEnvironment(), mayStay()},
+                              textOf(Request));
+  if (auto *Why = std::get_if<CompilerFailure>(&Response))
+    return std::move(*Why);
   if (!isReadInto(Answer, std::get<std::string>(Response)))
-    return Refuse(compiler() + " is of another version", {}, Resources);
-  if (Answer.Image.empty())
-    return Refuse(
-        std::string("cannot be ") +
-            (Answer.IsCompiled ? "linked" : "compiled for the machine") +
-            ", expected a kernel that can",
-        Answer.Printed, Kernel);
-  if (remarkOptions())
-    printRemarks(Answer.Printed);
-  return {std::move(Answer.Image), std::move(Answer.Object), {}, {}};
+    return CompilerFailure{compiler() + " is of another version", {}, true};
+  if (!Answer.FileProblem.empty())
+    pocl_adopt_file_problem(Answer.FileProblem.c_str());
+  if (Answer.Problem.empty()) {
+    if (remarkOptions())
+      printRemarks(Answer.Printed);
+    else
+      std::fputs(Answer.Printed.c_str(), stderr);
+  }
+  return std::nullopt;
 }
 
 } // namespace vorion

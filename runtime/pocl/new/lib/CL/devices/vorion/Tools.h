@@ -3,22 +3,12 @@
 #pragma once
 
 #include "CompilerMessages.h"
+#include "CompilerProcess.h"
 
+#include <optional>
 #include <string>
 
 namespace vorion {
-
-/// What was made of a kernel's bitcode.
-struct MadeImage {
-  enum class Cause {
-    Kernel,    ///< it has an error, or the compiler has
-    Resources, ///< the compiler lacks memory, or cannot be started
-  };
-  std::string Image;   ///< an ELF file
-  std::string Object;  ///< if it was requested
-  std::string Problem; ///< why there is no image: a line, and what was printed
-  Cause Of = Cause::Kernel; ///< whose problem
-};
 
 class Tools {
 public:
@@ -32,12 +22,17 @@ public:
   /// Headers for kernels.
   std::string includeFolder() const { return Root + "/include/vorion"; }
 
-  /// Changes whenever this library, a compiler or the device library does. Part
-  /// of the key of cached binaries.
+  /// Changes whenever this library, the compiler or the device library does.
+  /// Part of the key of cached binaries.
   std::string fingerprint() const;
 
-  /// Compiles with the options of VORION_REMARKS, too, and prints the remarks.
-  MadeImage makeImage(ImageRequest Request) const;
+  /// Sends \p Request, completed with this process's current folder and the
+  /// options of VORION_REMARKS, to the compiler. What the compiler printed goes
+  /// to standard error, except for a kernel that has an error; what it says of
+  /// files becomes this thread's (pocl_file_problem()). Gives why there is no
+  /// answer.
+  std::optional<CompilerFailure> ask(CompilerRequest &Request,
+                                     CompilerAnswer &Answer) const;
 
 private:
   std::string compiler() const;
