@@ -16,8 +16,9 @@ from records import Records, write
 
 HEAD = """# Instructions, CSRs and descriptors
 
-Generated from `intrinsics/*.td` by `intrinsics/generate/docs.py`; do not edit. The memory map and what the numbers
-mean together is in [abi.md](abi.md), the rasterizer in [rasterizer.md](rasterizer.md).
+Generated from `intrinsics/*.td` by `intrinsics/generate/docs.py`; do not edit.
+[abi.md](abi.md) describes the memory map and the use of these records,
+[rasterizer.md](rasterizer.md) the rasterizer.
 """
 
 
@@ -45,8 +46,8 @@ def simt(records):
 
 def effects(records):
     yield "\n## Effects\n"
-    yield paragraph("What an instruction does besides giving rd of each active lane a value that follows from the lane's "
-                    "own operands. Checkers report a used operand that is undefined.")
+    yield paragraph("Effects of an instruction other than computing rd of each active lane from the lane's operands. "
+                    "Checkers report a used operand that is undefined.")
     rows = []
     for c in records.of("EffectClass"):
         instructions = [f"`{i.Mnemonic}`" for i in records.of("Instruction") if i.Effects.id == c.id]
@@ -58,8 +59,9 @@ def effects(records):
 
 def csrs(records):
     yield "\n## CSRs\n"
-    yield paragraph("Scope: where one copy lives. Write: `none` traps, `lane` each active lane its own, `scalar` the value "
-                    "of the last active lane, `push` one element per active lane in lane order.")
+    yield paragraph("Scope: the unit that has one copy. Write: `none` traps, `lane` writes the copy of each active lane, "
+                    "`scalar` writes the value of the last active lane, `push` appends one element per active lane, in "
+                    "lane order.")
     rows = []
     for c in sorted(records.of("Csr"), key=lambda c: c.Number):
         fields = "".join(f"<br>bits {f.Low + f.Width - 1}:{f.Low} `{f.Name}`: {f.Doc}" for f in c.Fields)
@@ -69,9 +71,9 @@ def csrs(records):
 
 def counters(records):
     yield "\n## Counters\n"
-    yield paragraph("Of the cores, and of the Raster Agents' completed commands with the pixel units' part of them. "
-                    "Reports and `vx_counters` have each; `clGetEventInfoVORION` those with a token, after their name in "
-                    "`vx_counters`.")
+    yield paragraph("Counters of the cores, and of the completed commands of Raster Agents, including the work of the pixel "
+                    "units. Reports and `vx_counters` contain all; `clGetEventInfoVORION` returns those with a token, "
+                    "which has the name of the member of `vx_counters`.")
     rows = []
     for kind, prefix in (("CoreCounter", ""), ("RasterCounter", "raster_")):
         for c in records.of(kind):
@@ -94,9 +96,9 @@ def descriptors(records):
 
 def units(records):
     yield "\n## Units of a rasterizer's lane\n"
-    yield paragraph("What a field of a CSR chooses between. The cycles of a reciprocal are a pair of lanes'. What a unit is "
-                    "made of is in [the tables of the clock](tables/timing.md), what it does in "
-                    "[lane-units.md](lane-units.md).")
+    yield paragraph("The units that a CSR field selects. Cycles of a reciprocal unit are those of a pair of lanes. [The "
+                    "tables of the clock](tables/timing.md) list the operations of each unit, "
+                    "[lane-units.md](lane-units.md) describes it.")
     rows = []
     for kind, field in (("Exp", "`vr_options.exp`"), ("Blend", "`vr_options.blend`"),
                         ("Reciprocal", "`vr_backward.reciprocal`")):
