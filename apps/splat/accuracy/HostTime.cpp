@@ -97,14 +97,11 @@ double percentOff(double Is, double Right) { return 100 * (Is / Right - 1); }
 Expected<std::vector<HostTime>>
 measureSimulations(const SweepPlan &P, const std::vector<Camera> &Views,
                    const std::function<void(std::string_view)> &Log) {
-  HostTime Functional{"functional",
-                      {},
-                      false,
-                      {},
-                      "a cycle for each warp instruction of a core"};
+  HostTime Functional{
+      "functional", {}, false, {}, "one cycle per warp instruction of a core"};
   HostTime Sampled{"sampled", {}, false, {}, ""};
   HostTime Clocked{
-      "clocked", {}, false, 0, "the cycles that all others are held against"};
+      "clocked", {}, false, 0, "the reference for the cycles of the others"};
   std::vector<Frame> Plain, Timed;
   unsigned Runs = QuickRuns;
   for (unsigned Run = 0; Run < Runs; ++Run) {
@@ -113,7 +110,7 @@ measureSimulations(const SweepPlan &P, const std::vector<Camera> &Views,
     double PlainSeconds = 0, TimedSeconds = 0;
     for (const Camera &View : Views)
       for (const bool WithClock : {false, true}) {
-        Log(fmt::format("the host's time: {}, {} simulation, run {}", View.Name,
+        Log(fmt::format("simulation time: {}, {} simulation, run {}", View.Name,
                         WithClock ? "clocked" : "functional", Run + 1));
         auto F = draw(P, View, WithClock);
         if (!F)
@@ -137,11 +134,11 @@ measureSimulations(const SweepPlan &P, const std::vector<Camera> &Views,
   Functional.ErrorPercent = percentOff(OfInstructions, Right);
   if (Views.size() > 1) {
     Sampled.ErrorPercent = percentOff(OfSample, Right);
-    Sampled.Note = fmt::format("the clock for {} alone; others by their work",
+    Sampled.Note = fmt::format("clock only for {}; other views extrapolated",
                                Views.front().Name);
   } else {
     Sampled.Seconds.clear();
-    Sampled.Note = "not measured: expected two views or more to choose from";
+    Sampled.Note = "not measured, expected at least two views";
   }
   return std::vector{Functional, Sampled, Clocked};
 }
@@ -158,18 +155,18 @@ HostTime ofRtl(const SweepPlan &P, const Camera &View,
   T.Seconds.push_back(Found->Seconds * Found->AllTiles / Found->Tiles);
   T.ErrorPercent = Found->ErrorPercent;
   T.Note = fmt::format(
-      "{} of {} tiles of {} drawn at random, {:.3g} s; the clock's cycles "
-      "against theirs, of a tile at most {:.2f} %{}",
+      "{} of {} tiles of {}, selected at random, {:.3g} s; largest error of "
+      "the clock for a tile {:.2f} %{}",
       Found->Tiles, Found->AllTiles, View.Name, Found->Seconds,
       Found->WorstPercent,
       Found->WrongPixels == 0
           ? ""
-          : fmt::format("; {} PIXELS DIFFER", Found->WrongPixels));
+          : fmt::format("; {} pixels DIFFER", Found->WrongPixels));
   return T;
 }
 
 AnswerTable tableOf(const std::vector<HostTime> &All) {
-  AnswerTable T{"", "", {"simulation", "host s", "cycles off", ""}, {}};
+  AnswerTable T{"", "", {"simulation", "host s", "cycle error", ""}, {}};
   for (const HostTime &One : All) {
     std::string Seconds = "-";
     if (!One.Seconds.empty()) {
@@ -203,8 +200,8 @@ std::string hostTimeText(const std::vector<HostTime> &All,
   Names.reserve(Views.size());
   for (const Camera &View : Views)
     Names.push_back(View.Name);
-  return fmt::format("the host's time for {}, processor seconds of the whole "
-                     "program:\n{}",
+  return fmt::format("simulation times for {}, in processor seconds of the "
+                     "whole program:\n{}",
                      fmt::join(Names, ","), toString(tableOf(All)));
 }
 

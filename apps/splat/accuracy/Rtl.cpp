@@ -46,15 +46,15 @@ Expected<Parts> findParts() {
   Parts P{Tree / "share/vorion/rtl/build.sh", Tree / "bin/isasim-raster-tiles",
           Tree / "lib/isasim-tile-writer.so"};
   if (inPath("verilator").empty())
-    return Error{"", "not run: Verilator is absent (Debian's package "
+    return Error{"", "not run: Verilator is not installed (Debian package "
                      "verilator)"};
   for (const std::string &File : {P.Build, P.Tiles, P.Plugin})
     if (!fs::exists(File, Ignored))
-      return Error{"", fmt::format("not run: {} is absent", File)};
+      return Error{"", fmt::format("not run: {} is missing", File)};
   return P;
 }
 
-/// Runs \p Words; an Error says \p What went wrong.
+/// Runs \p Words; \p What names the step in the Error.
 Expected<ProcessEnd> run(const char *What, std::vector<std::string> Words,
                          const std::string &Out, const std::string &Log) {
   auto Ended = runProgram(std::move(Words), {}, Out, Log);
@@ -72,8 +72,8 @@ unsigned tilesOf(const Camera &View) {
   return Along(View.Width) * Along(View.Height);
 }
 
-/// What the bench says last: "8 tiles, 0 wrong pixels; clock 1 cycles, RTL 1,
-/// error +0.05 %, of a tile at most 1.14 %".
+/// Parses the last line of the test bench: "8 tiles, 0 wrong pixels; clock 1
+/// cycles, RTL 1, error +0.05 %, of a tile at most 1.14 %".
 Expected<RtlRun> parse(const std::string &Line) {
   RtlRun R;
   if (std::sscanf(Line.c_str(),
@@ -81,7 +81,7 @@ Expected<RtlRun> parse(const std::string &Line) {
                   "%lf %%, of a tile at most %lf %%",
                   &R.Tiles, &R.WrongPixels, &R.ErrorPercent,
                   &R.WorstPercent) != 4)
-    return Error{"", "not run: its bench said: " + Line};
+    return Error{"", "not run: unexpected output of the test bench: " + Line};
   return R;
 }
 
@@ -96,13 +96,13 @@ Expected<RtlRun> runRtl(const SweepPlan &P, const Camera &View,
   const auto File = [&](const char *Name) { return Folder + "/" + Name; };
   std::error_code Failed;
   fs::create_directories(Folder, Failed);
-  Log("the rasterizer's RTL: building it");
-  if (auto Built = run("building it", {Found->Build, File("built")},
+  Log("rasterizer's RTL: building");
+  if (auto Built = run("building", {Found->Build, File("built")},
                        File("build.log"), File("build.log"));
       !Built)
     return Built.error();
 
-  Log("the rasterizer's RTL: writing tiles");
+  Log("rasterizer's RTL: writing tiles");
   std::vector<std::string> Words =
       renderWords(P, View.Name, File("picture.pfm"));
   Words.insert(Words.end(), {"--exp", "table"});
@@ -112,7 +112,7 @@ Expected<RtlRun> runRtl(const SweepPlan &P, const Camera &View,
   Machine.set("VORION_RASTER_TILES", File("all"));
   if (auto Drawn = runSplat(Words, Machine, File("render.log")); !Drawn)
     return Error{"", "not run: " + Drawn.error().What};
-  auto Drawn = run("drawing tiles",
+  auto Drawn = run("selecting tiles",
                    {Found->Tiles, fmt::format("{}", Latency), File("all"),
                     "--random", fmt::format("{}", DrawnTiles)},
                    File("tiles"), File("tiles.log"));
@@ -120,7 +120,7 @@ Expected<RtlRun> runRtl(const SweepPlan &P, const Camera &View,
   if (!Drawn)
     return Drawn.error();
 
-  Log("the rasterizer's RTL: running it");
+  Log("rasterizer's RTL: simulating");
   // Any error of cycles is a result.
   const auto Ended = runProgram({File("built/Bench"), File("tiles"), "1e9"}, {},
                                 File("bench.log"), File("bench.log"));

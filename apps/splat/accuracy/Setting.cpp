@@ -82,8 +82,8 @@ Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names) {
     if (!findIn(allKnobs(), Name))
       return Error{
           "",
-          fmt::format("--knobs {}: no such knob, expected some of {}{}", Name,
-                      fmt::join(knobNames(), ", "),
+          fmt::format("--knobs {}: unknown knob, expected one or more of {}{}",
+                      Name, fmt::join(knobNames(), ", "),
                       didYouMean(Name, knobNames())),
           ExitCode::Usage};
   std::vector<Knob> Found;
@@ -94,7 +94,7 @@ Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names) {
   return Found;
 }
 
-/// Reads "exp=poly3"; nothing if that is no choice.
+/// Parses "exp=poly3"; empty if knob or value are unknown.
 static std::optional<Choice> choiceOf(const std::string &Text) {
   const std::size_t Equals = Text.find('=');
   const Knob *K = findIn(allKnobs(), Text.substr(0, Equals));
@@ -136,7 +136,7 @@ Expected<Setting> Setting::parse(const std::string &Name) {
   for (std::string Part; std::getline(In, Part, ',');) {
     const auto Found = choiceOf(Part);
     if (!Found)
-      return Wrong(fmt::format("'{}' is no choice", Part));
+      return Wrong(fmt::format("unknown choice '{}'", Part));
     Parts.push_back(*Found);
   }
   // One order, so that a setting has one name.
@@ -145,7 +145,7 @@ Expected<Setting> Setting::parse(const std::string &Name) {
   for (std::size_t I = 0; I < Parts.size(); ++I) {
     const Knob &K = knob(Parts[I].Id);
     if (I > 0 && Parts[I - 1].Id == Parts[I].Id)
-      return Wrong(fmt::format("{} is there twice", K.Name));
+      return Wrong(fmt::format("duplicate knob {}", K.Name));
     S = S.with(K, Parts[I].Value);
   }
   return S;

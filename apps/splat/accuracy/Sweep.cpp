@@ -69,9 +69,8 @@ Expected<Json> PointMeasurement::errors(const ExactImage &Picture,
   if (D.NotFinite != 0)
     return Error{
         Target.name(),
-        fmt::format("{} pixels have values that are no finite numbers, "
-                    "expected a picture: leave out this choice with "
-                    "--knobs",
+        fmt::format("{} pixels have values that are not finite, expected "
+                    "finite values; exclude this choice with --knobs",
                     D.NotFinite),
         ExitCode::GuestFailed};
   Json J{{"ssim", ssim(Right.Render, Picture.Render,
@@ -273,8 +272,8 @@ Expected<Point> pointNamed(const SweepPlan &P, const std::string &Name) {
     if (At != std::string::npos && View.Name == Name.substr(At + 1))
       return Point{*Chosen, &View};
   return Error{"",
-               fmt::format("point '{}': no such view, expected SETTING@VIEW "
-                           "as --list prints",
+               fmt::format("point '{}': unknown view, expected SETTING@VIEW "
+                           "as printed by --list",
                            Name),
                ExitCode::Usage};
 }

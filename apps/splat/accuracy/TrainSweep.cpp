@@ -61,7 +61,7 @@ std::vector<std::string> trainArguments(const TrainSweepPlan &P,
 Expected<Success> makeState(const TrainSweepPlan &P,
                             const std::function<void(std::string_view)> &Log) {
   return makeOnce({stateFile(P)}, P.From, [&]() -> Expected<Success> {
-    Log("the scene for gradients: the default's run with seed 0");
+    Log("scene for gradients: run of the default with seed 0");
     std::vector<std::string> Words = trainArguments(P, stateFile(P));
     // A run that was broken off goes on, unless it was made from other things.
     const std::string Checkpoint =
@@ -94,7 +94,7 @@ makeReference(const TrainSweepPlan &P,
     const auto Pictures = loadTrainingSet(*C, {P.Downscale, P.Background});
     if (!Pictures)
       return Pictures.error();
-    Log("gradients in fp64");
+    Log("reference gradients in fp64");
     return writeGradientReference(Files, State->Gaussians,
                                   Pictures->Training.front(), P.Background);
   };
@@ -173,7 +173,7 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
   if (Report["timed"].empty())
     return Error{
         Of.name(),
-        "no iteration was timed, expected the clock on in all of a run",
+        "no iteration was timed, expected the clock on for the whole run",
         ExitCode::Usage};
   Json Curve = curveOf(Report, P.TimeEvery);
   double Cycles = 0, Joules = 0;
@@ -240,7 +240,7 @@ bool isMeasurement(const Json &J) {
 std::string lineOf(const Json &Measured) {
   if (Measured.contains("errors"))
     return fmt::format("{:.1e}", Measured["errors"]["largest"].get<double>());
-  return fmt::format("{:.2f} dB, {:.0f} cycles an iteration; {}",
+  return fmt::format("{:.2f} dB, {:.0f} cycles per iteration; {}",
                      Measured["psnr8_db"].get<double>(),
                      Measured["cycles"].get<double>(),
                      Measured[ClockedMachineKey].get<std::string>());
@@ -396,11 +396,11 @@ std::string trainTable(const Json &Results) {
   const bool HasEnergy = !Results["settings"][0]["chip_joules"].is_null();
   std::string Text = fmt::format(
       "machine: {}\n\n"
-      "| setting | gradient error | area of the unit, um^2 a pair | Mcycles an "
+      "| setting | gradient error | unit area, um^2 per pair | Mcycles per "
       "iteration | {}PSNR after {}, dB | machine-seconds to {:.2f} dB |\n"
       "|---|--:|--:|--:|{}--:|--:|\n",
       printable(Results[ClockedMachineKey].get<std::string>()),
-      HasEnergy ? "energy of the chip an iteration, mJ | " : "",
+      HasEnergy ? "chip energy per iteration, mJ | " : "",
       Results["iterations"].get<unsigned>(),
       Results["reached_db"].get<double>(), HasEnergy ? "--:|" : "");
   const auto Spread = [](const Json &J, double Unit, int Digits) {

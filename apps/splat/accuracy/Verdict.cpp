@@ -36,15 +36,15 @@ std::optional<double> change(const Candidate &C, const Candidate &Base,
 std::string ofTheFastest(const std::vector<Candidate> &All, double FloorDb) {
   const auto Best = recommend(All, TimeAxis::Cycles, FloorDb);
   if (!Best)
-    return fmt::format("no setting has {:g} dB", FloorDb);
+    return fmt::format("no setting reaches {:g} dB", FloorDb);
   const Candidate &C = All[*Best];
   if (C.Chosen.size() == 0)
-    return fmt::format("no coarser setting with at least {:g} dB is faster "
+    return fmt::format("no other setting with at least {:g} dB is faster "
                        "than the default",
                        FloorDb);
   return fmt::format(
-      "of settings with at least {:g} dB, {} is the fastest: {} cycles than "
-      "the default, {}",
+      "the fastest setting with at least {:g} dB is {}: {} cycles than the "
+      "default, {}",
       FloorDb, C.Chosen.name(),
       compared(*change(C, All.front(), TimeAxis::Cycles), "more", "fewer",
                "no fewer"),
@@ -74,14 +74,15 @@ std::string ofTheExponential(const std::vector<const Candidate *> &Units,
   if (Energy)
     Sort("energy", *Energy);
   const std::string Said =
-      (Costs.empty() ? "costs hardly any "
+      (Costs.empty() ? "costs almost no "
                      : fmt::format("costs {}", fmt::join(Costs, " and "))) +
       (Hardlies.empty() || Costs.empty()
            ? fmt::format("{}", fmt::join(Hardlies, " or "))
-           : fmt::format(", hardly {}", fmt::join(Hardlies, " or ")));
+           : fmt::format(", and almost no {}", fmt::join(Hardlies, " or ")));
   return fmt::format(
-      "the exponential {}: no unit changes the cycles by more than {:.1f} %; "
-      "with {} instead of exact a lane's area is {}{}, at {} in place of {}",
+      "the exponential unit {}: no unit changes the cycles by more than "
+      "{:.1f} %; with {} instead of exact, a lane's area is {}{}, at {} "
+      "instead of {}",
       Said, 100 * std::abs(Cycles), C.Chosen.value(KnobId::Exp),
       compared(C.LaneArea - 1, "more", "less", "the same"),
       Energy ? fmt::format(" and the chip's energy {}",

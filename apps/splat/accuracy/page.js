@@ -1,6 +1,6 @@
-// The page of `splat accuracy SCENE`: draws the measurements and lets people choose.
+// The page of `splat accuracy SCENE`: plots the measurements.
 
-// What a setting may be judged by. `place`: where an error is drawn, higher for better; `tick`: what stands there.
+// The errors of a setting. `place`: position on the axis, higher for better; `tick`: label of the position.
 const power = t => `1e${-t}`;
 const METRICS = {
   psnr_db: { label: 'PSNR, dB', digits: 1 },
@@ -153,41 +153,41 @@ function drawTable(entries, front, base) {
   for (const [key, metric] of Object.entries(METRICS))
     columns.push([metric.label, e => e.errors[key], e => format(e.errors[key], metric)]);
   for (const axis of Object.keys(AXES))
-    columns.push([`${AXES[axis].label}; against the default`, e => e.times[axis] ?? Infinity,
+    columns.push([`${AXES[axis].label}; change from the default`, e => e.times[axis] ?? Infinity,
       e => `${time(e.times[axis], axis)} ${base ? changeOf(e.times[axis], base.times[axis]) : ''}`]);
   columns.push(['lane area', e => e.area, e => `${(100 * e.area).toFixed(1)} %`]);
   drawEntries(columns, entries, e => e.setting, e => front.includes(e));
 }
 
-// Why the recommended setting is not on the front that is shown; nothing if it is.
+// Why the recommended setting is not on the displayed front; empty if it is.
 function whyOffFront(chosen, front) {
   if (front.some(e => e.setting === chosen.setting)) return '';
   const reasons = [];
-  if (state.metric !== 'psnr_db') reasons.push(`judges by ${METRICS[state.metric].label}, and the recommendation by PSNR`);
+  if (state.metric !== 'psnr_db') reasons.push(`uses ${METRICS[state.metric].label}, and the recommendation uses PSNR`);
   const shown = state.view === 0 ? data.views : [data.views[state.view - 1]];
-  if (shown.join() !== data.chosen_on.join()) reasons.push(`is of ${shown.join(', ')}, and the recommendation of ${data.chosen_on.join(', ')}`);
-  return `It is not on the front that is shown, which ${reasons.join('; it ')}.`;
+  if (shown.join() !== data.chosen_on.join()) reasons.push(`is that of ${shown.join(', ')}, and the recommendation that of ${data.chosen_on.join(', ')}`);
+  return `It is not on the displayed front, which ${reasons.join('; it ')}.`;
 }
 
 function drawRecommended(front) {
   const box = byId('recommended');
   const chosen = recommend(data.chosen, entriesOf(data.chosen), state.floor);
   if (!chosen) {
-    box.textContent = `No setting reaches ${state.floor} dB on ${data.chosen_on.join(', ')} with this time.`;
+    box.textContent = `No setting reaches ${state.floor} dB on ${data.chosen_on.join(', ')} with this cost.`;
     return;
   }
-  const table = element('table', {}, rowOf(['view', 'used for', 'PSNR, dB', 'SSIM', AXES[state.axis].label, 'against the default'], 'th'));
+  const table = element('table', {}, rowOf(['view', 'used for', 'PSNR, dB', 'SSIM', AXES[state.axis].label, 'change from the default'], 'th'));
   for (const [n, view] of data.views.entries()) {
     const all = entriesOf(data.summaries[n + 1]);
     const own = all.find(e => e.setting === chosen.setting), base = all.find(e => e.setting === 'default');
     if (!own || !base) continue;
-    const row = rowOf([view, data.chosen_on.includes(view) ? 'choosing' : 'checking', format(own.errors.psnr_db, METRICS.psnr_db),
+    const row = rowOf([view, data.chosen_on.includes(view) ? 'selection' : 'check', format(own.errors.psnr_db, METRICS.psnr_db),
       format(own.errors.ssim, METRICS.ssim), time(own.times[state.axis], state.axis), changeOf(own.times[state.axis], base.times[state.axis])]);
     row.children[2].className = own.errors.psnr_db >= state.floor ? 'kept' : 'missed';
     table.append(row);
   }
   box.replaceChildren(element('p', {}, element('b', {}, chosen.setting),
-    `, the ${state.axis === 'chip_joules' ? 'one of least energy' : 'fastest'} with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), element('p', { id: 'off-front' }, whyOffFront(chosen, front)), table);
+    `, the ${state.axis === 'chip_joules' ? 'setting with the lowest energy' : 'fastest setting'} with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), element('p', { id: 'off-front' }, whyOffFront(chosen, front)), table);
 }
 
 function drawFree(free, base) {
@@ -227,14 +227,14 @@ function drawHost() {
   const seconds = h => h.seconds.length === 0 ? '–' : [Math.min(...h.seconds), Math.max(...h.seconds)].map(s => s.toPrecision(3))
     .filter((s, n, all) => n === 0 || s !== all[0]).join(' to ') + (h.extrapolated ? ' (extrapolated)' : '');
   const off = h => h.cycles_error_percent === null ? '–' : `${h.cycles_error_percent.toFixed(2)} %`;
-  byId('host').append(rowOf(['simulation', 'host, s', 'cycles off', ''], 'th'),
+  byId('host').append(rowOf(['simulation', 'host, s', 'cycle error', ''], 'th'),
     ...data.host.map(h => rowOf([h.simulation, seconds(h), off(h), h.note])));
 }
 
 function start() {
   byId('verdict').textContent = data.verdict;
   drawHost();
-  byId('machine').textContent = `All times are of ${data.clocked_machine}.`;
+  byId('machine').textContent = `Times are those of ${data.clocked_machine}.`;
   const choose = (id, choices, read = v => v) => fill(byId(id), choices, value => { state[id] = read(value); draw(); });
   choose('view', [[0, 'all (worst error, sum of times)'], ...data.views.map((v, n) => [n + 1, v])], Number);
   choose('metric', Object.entries(METRICS).map(([k, m]) => [k, m.label]));
@@ -256,7 +256,7 @@ function checkRecommended() {
         if (!chosen) continue;
         const front = data.summaries[view].fronts[metric][axis].map(n => data.summaries[view].settings[n].setting);
         const why = byId('off-front').textContent;
-        if (front.includes(chosen.setting) ? why !== '' : !/ judges by | is of /.test(why)) throw new Error(`${chosen.setting}, of ${axis} and ${metric}: ${why}`);
+        if (front.includes(chosen.setting) ? why !== '' : !/ uses | is that of /.test(why)) throw new Error(`${chosen.setting}, of ${axis} and ${metric}: ${why}`);
       }
   Object.assign(state, { metric: 'psnr_db', view: 0, axis: seenAxis() });
   draw();

@@ -5,9 +5,9 @@ const single = value => ({ mean: value, least: value, most: value });
 // What a setting may be shown against: its value, and what its seeds range over, if they do.
 const AXES = {
   machine_seconds: { label: `machine-seconds to ${data.reached_db.toFixed(2)} dB`, of: s => s.machine_seconds, digits: 3 },
-  cycles: { label: 'Mcycles an iteration', of: s => s.cycles, scale: 1e-6, digits: 4 },
-  ...(data.settings[0].chip_joules && { chip_joules: { label: 'energy of the chip an iteration, mJ', of: s => s.chip_joules, scale: 1e3, digits: 3 } }),
-  area: { label: 'area, um² a pair', of: s => single(s.reciprocal_um2), digits: 0 },
+  cycles: { label: 'Mcycles per iteration', of: s => s.cycles, scale: 1e-6, digits: 4 },
+  ...(data.settings[0].chip_joules && { chip_joules: { label: 'energy of the chip per iteration, mJ', of: s => s.chip_joules, scale: 1e3, digits: 3 } }),
+  area: { label: 'area, um² per pair', of: s => single(s.reciprocal_um2), digits: 0 },
   error: { label: 'gradient error', of: s => single(s.gradient_error.largest), logarithmic: true },
 };
 const state = { axis: 'machine_seconds', selected: 'default', sort: { n: 0, down: false } };
@@ -68,14 +68,14 @@ function drawTable() {
   const columns = [['setting', s => s.setting, s => s.setting]];
   for (const axis of ['error', 'area', 'cycles', 'chip_joules', 'machine_seconds'].filter(key => AXES[key]))
     columns.push([AXES[axis].label, s => AXES[axis].of(s).mean, s => text(s, axis)]);
-  for (const [label, key] of [['PSNR, mean', 'mean'], ['least', 'least'], ['greatest', 'most']])
+  for (const [label, key] of [['PSNR, mean', 'mean'], ['minimum', 'least'], ['maximum', 'most']])
     columns.push([label, s => s.psnr8_db[key], s => s.psnr8_db[key].toFixed(3)]);
   drawEntries(columns, data.settings, s => s.setting);
 }
 
 function drawCurves() {
   const shown = data.curves.filter(c => ['default', state.selected].includes(c.setting));
-  byId('selected').textContent = `${state.selected}, a line a seed${state.selected === 'default' ? '' : '; grey: the default'}`;
+  byId('selected').textContent = `${state.selected}, one line per seed${state.selected === 'default' ? '' : '; grey: the default'}`;
   drawChart('curves', {
     type: 'scatter',
     data: { datasets: shown.map(({ setting, seed, curve }) => ({
@@ -93,7 +93,7 @@ function draw() {
 }
 
 function start() {
-  byId('machine').textContent = `All times are of ${data.clocked_machine}.`;
+  byId('machine').textContent = `Times are those of ${data.clocked_machine}.`;
   fill(byId('axis'), Object.entries(AXES).map(([k, a]) => [k, a.label]), value => { state.axis = value; draw(); });
   draw();
 }

@@ -107,7 +107,7 @@ Expected<Success> measureTraining(TrainSweepPlan P, const StudyOptions &O) {
   StudySteps Steps;
   Steps.Round = [&All] { return All; };
   Steps.Named = [&All](const std::vector<std::string> &Names) {
-    return pointsNamed(All, Names, "point", "those that --list prints");
+    return pointsNamed(All, Names, "point", "one of those printed by --list");
   };
   Steps.End = [&] { return finish(P, Kept); };
   return runStudy(O, Kept, Steps, logStudy);

@@ -182,7 +182,7 @@ Expected<std::vector<StudyPoint>>
 Exploration::named(const std::vector<std::string> &Names) {
   std::vector<StudyPoint> All = trials(P.Does.Small, Machines);
   std::ranges::move(trials(P.Does.Whole, Machines), std::back_inserter(All));
-  return pointsNamed(All, Names, "trial", "MACHINE@TASK as --list prints");
+  return pointsNamed(All, Names, "trial", "MACHINE@TASK as printed by --list");
 }
 
 Expected<Findings> Exploration::findings() {

@@ -83,11 +83,12 @@ Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
   Names.reserve(All.size());
   for (const Candidate &C : All)
     Names.push_back('"' + C.Name + '"');
-  return Error{"",
-               fmt::format("no OpenCL device is named like \"{}\", expected "
-                           "part of one of {}",
-                           Wanted, fmt::join(Names, ", ")),
-               ExitCode::Usage};
+  return Error{
+      "",
+      fmt::format("no name of an OpenCL device contains \"{}\", expected "
+                  "part of one of {}",
+                  Wanted, fmt::join(Names, ", ")),
+      ExitCode::Usage};
 }
 
 } // namespace

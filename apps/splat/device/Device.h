@@ -21,9 +21,9 @@ namespace vorion::splat {
 /// a device does. Device::open() does it where nobody has.
 void loadPlatforms();
 
-/// How a message ends where something of the installation may be missing.
+/// The end of messages about a possibly incomplete installation.
 inline constexpr std::string_view SeeDoctor =
-    "(splat doctor says what is missing)";
+    "(run splat doctor for a diagnosis)";
 
 /// An opened device with its context and its in-order queues.
 class Device {

@@ -14,7 +14,7 @@ Expected<std::string> read(const std::string &File, const std::string &Folder) {
   if (Folder.empty()) {
     const std::string_view Text = kernelSource(File);
     if (Text.empty())
-      return Error{File, "no kernel file has this name"};
+      return Error{File, "unknown kernel file"};
     return std::string(Text);
   }
   const auto Bytes = readRegularFile(Folder + "/" + File);

@@ -55,9 +55,9 @@ std::optional<Error> fileError(const std::string &Name,
     return Error{
         "",
         fmt::format("kernel program '{}' cannot be compiled: {}, "
-                    "expected files{} that can be read {}",
+                    "expected readable files{} {}",
                     Name, Unread,
-                    Root ? fmt::format(" below VORION_ROOT, '{}',", Root) : "",
+                    Root ? fmt::format(" below VORION_ROOT, '{}'", Root) : "",
                     SeeDoctor)};
   }
   return std::nullopt;
@@ -200,7 +200,7 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
   account({Name, 1, Seconds, Dev.counters(Done), std::move(*Time)});
 }
 
-/// With what to do if the device's memory is what is short.
+/// Adds the remedy if device memory is exhausted.
 Error Launcher::memoryError(std::string_view What, cl_int Status) const {
   Error E = clError(What, Status);
   if (E.Code == ExitCode::LimitReached && Status != CL_OUT_OF_HOST_MEMORY)
@@ -218,8 +218,8 @@ Error Launcher::launchError(const std::string &Name, cl_int Status) const {
   if (Status == CL_MEM_OBJECT_ALLOCATION_FAILURE)
     return memoryError("running kernel " + Name, Status);
   return Error{"",
-               fmt::format("kernel '{}' failed on {} ({}), expected it to run "
-                           "to its end",
+               fmt::format("kernel '{}' failed on {} ({}), expected it to "
+                           "complete",
                            Name, Dev.name(), statusName(Status)),
                ExitCode::Trap};
 }
@@ -254,7 +254,7 @@ void CL_CALLBACK releaseBuffer(cl_mem /*Buffer*/, void *Data) {
   *R->InUse -= R->Bytes;
 }
 
-/// What a user can do if the device has not \p Bytes, beside \p Remedy.
+/// The remedies if the device does not have \p Bytes; one is \p Remedy.
 std::string remedyFor(uint64_t Bytes, const std::string &Remedy) {
   // The platform keeps 1/32 of the machine's memory for launches.
   const uint64_t Wanted = Bytes / 31 * 32;
@@ -277,9 +277,9 @@ cl::Buffer Launcher::allocate(std::string_view What, uint64_t Bytes) {
   if (Size > Dev.largestAllocation() || *InUse + Size > Dev.globalBytes()) {
     Failure = Error{
         "",
-        fmt::format("the {} need {:.1f} MiB beside {:.1f} MiB in use, but {} "
-                    "has {:.1f} MiB of memory, at most {:.1f} MiB in one "
-                    "piece, {}",
+        fmt::format("the {} need {:.1f} MiB in addition to {:.1f} MiB in use, "
+                    "but {} has {:.1f} MiB of memory, at most {:.1f} MiB for "
+                    "one buffer, {}",
                     What, mebibytes(Size), mebibytes(*InUse), Dev.name(),
                     mebibytes(Dev.globalBytes()),
                     mebibytes(Dev.largestAllocation()),

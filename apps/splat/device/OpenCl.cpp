@@ -39,8 +39,8 @@ Error clError(std::string_view What, cl_int Status) {
                fmt::format("{} failed: {}{}", What, statusName(Status),
                            !NoMemory ? ""
                            : Status == CL_OUT_OF_HOST_MEMORY
-                               ? ", the host has too little memory"
-                               : ", the device has too little memory"),
+                               ? ", the host is out of memory"
+                               : ", the device is out of memory"),
                NoMemory ? ExitCode::LimitReached : ExitCode::Internal};
 }
 

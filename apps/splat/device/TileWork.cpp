@@ -59,7 +59,7 @@ Expected<DrawnTiles> readTileWork(const std::string &File) {
       // A line names its machine and clock as a time report does.
       Drawn.On = clockedMachine(*Line);
     } catch (const Json::exception &) {
-      return Error{File, "no tile, expected lines of VORION_TILES"};
+      return Error{File, "no tiles, expected lines of VORION_TILES"};
     }
     Text.remove_prefix(std::min(End + 1, Text.size()));
   }

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr const char *Wanted =
-    "what `splat render --time --json` or `vorion-sim --time --stats` writes";
+    "the output of `splat render --time --json` or `vorion-sim --time --stats`";
 
 /// Adds up figures of one name. Their number is small.
 class Figures {
@@ -149,9 +149,9 @@ Expected<Success> checkOutcomes(const std::string &Path, const Json &Runs) {
     if (const std::string Outcome = Runs[N].value("outcome", "done");
         Outcome != "done")
       return Error{
-          Path, fmt::format(
-                    "run {}, {}: its outcome is '{}', expected 'done'", N + 1,
-                    printable(Runs[N].at("name").get<std::string>()), Outcome)};
+          Path, fmt::format("run {}, {}: outcome '{}', expected 'done'", N + 1,
+                            printable(Runs[N].at("name").get<std::string>()),
+                            Outcome)};
   return Success{};
 }
 
@@ -223,8 +223,8 @@ Expected<Success> checkSame(const TimeFile &FileOfA, const nlohmann::json &A,
     return Of.contains(Place) ? jsonText(Of.at(Place)) : "nothing";
   };
   return Error{FileOfB.Path,
-               fmt::format("another {}: {} is {}, expected {} as in {} "
-                           "(--across compares them nevertheless)",
+               fmt::format("different {}: {} is {}, expected {} as in {} "
+                           "(--across permits the comparison)",
                            What, joined(Path), Text(B), Text(A), FileOfA.Path)};
 }
 
@@ -255,7 +255,7 @@ Expected<TimeFile> readTimeFile(const std::string &Path) {
   } catch (const nlohmann::json::exception &) {
     return Error{Path, fmt::format("no time report, expected {}", Wanted)};
   }
-  return Error{Path, fmt::format("no time in it, expected {}", Wanted)};
+  return Error{Path, fmt::format("no times, expected {}", Wanted)};
 }
 
 Expected<Success> checkComparable(const TimeFile &A, const TimeFile &B,
@@ -263,7 +263,8 @@ Expected<Success> checkComparable(const TimeFile &A, const TimeFile &B,
   if (A.ClockVersion != B.ClockVersion)
     return Error{B.Path,
                  fmt::format("version {} of the clock, expected version "
-                             "{} as in {}: their times do not compare",
+                             "{} as in {}: times of different versions are not "
+                             "comparable",
                              B.ClockVersion, A.ClockVersion, A.Path)};
   if (Across)
     return Success{};

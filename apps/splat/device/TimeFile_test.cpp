@@ -123,12 +123,12 @@ TEST(TimeFile, WhatDiffersIsNamed) {
   Json Clusters = stats();
   Clusters["config"]["clusters"] = 4;
   EXPECT_EQ(problem(stats(), Clusters),
-            "another machine: clusters is 4, expected 1 as");
+            "different machine: clusters is 4, expected 1 as");
   EXPECT_EQ(problem(stats(), Clusters, true), "");
   Json Mhz = frame();
   Mhz["time"]["sum"]["clock_mhz"] = 100;
   EXPECT_EQ(problem(frame(), Mhz),
-            "another machine: clock_mhz is 100, expected 500 as");
+            "different machine: clock_mhz is 100, expected 500 as");
   // However a configuration was written, and wherever its table lies.
   Json Machine = frame(), Named = frame(), Table = frame();
   for (Json *Each : {&Machine, &Named, &Table}) {
@@ -142,17 +142,17 @@ TEST(TimeFile, WhatDiffersIsNamed) {
   EXPECT_EQ(problem(Machine, Named), "");
   Table["time"]["sum"]["dram_table"]["fnv1a64"] = "02";
   EXPECT_EQ(problem(Machine, Table),
-            "another machine: dram_table is \"02\", expected \"01\" as");
+            "different machine: dram_table is \"02\", expected \"01\" as");
   Table["time"]["sum"]["machine_changes"] = {"clusters=2"};
   EXPECT_EQ(problem(Machine, Table, true), "");
   Json View = frame();
   View["view"] = "close";
   EXPECT_EQ(problem(frame(), View),
-            "another work: view is \"close\", expected \"front\" as");
+            "different work: view is \"close\", expected \"front\" as");
   Json Shorter = stats();
   Shorter["runs"].erase(1);
   EXPECT_EQ(problem(stats(), Shorter),
-            "another work: runs.1 is nothing, expected \"scan\" as");
+            "different work: runs.1 is nothing, expected \"scan\" as");
   Json Version = frame();
   Version["time"]["sum"]["clock_version"] = 3;
   for (const bool Across : {false, true})
@@ -165,10 +165,10 @@ TEST(TimeFile, AChangeThatOneMachineHasIsNamed) {
   Plain["time"]["sum"]["machine_changes"] = Json::array();
   Changed["time"]["sum"]["machine_changes"] = {"clusters=2"};
   EXPECT_EQ(problem(Plain, Changed),
-            "another machine: machine_changes.0 is \"clusters=2\", expected "
+            "different machine: machine_changes.0 is \"clusters=2\", expected "
             "nothing as");
   EXPECT_EQ(problem(Changed, Plain),
-            "another machine: machine_changes.0 is nothing, expected "
+            "different machine: machine_changes.0 is nothing, expected "
             "\"clusters=2\" as");
 }
 
@@ -197,10 +197,10 @@ TEST(TimeFile, OtherLaunchesAreOtherWork) {
   Longer["runs"][0]["launch"]["arguments"][0]["value"] = 6;
   Said["runs"][0]["launch"]["arguments"][1]["bytes"] = 64;
   EXPECT_EQ(problem(Known, Wider),
-            "another work: launches.0.global.0 is 128, expected 64 as");
+            "different work: launches.0.global.0 is 128, expected 64 as");
   EXPECT_EQ(problem(Known, Wider, true), "");
   EXPECT_EQ(problem(Known, Longer),
-            "another work: launches.0.arguments.0.value is 6, expected 5 as");
+            "different work: launches.0.arguments.0.value is 6, expected 5 as");
   // What one of them does not know is not compared.
   EXPECT_EQ(problem(Known, Said), "");
   EXPECT_EQ(problem(Known, stats()), "");
@@ -214,7 +214,7 @@ TEST(TimeFile, ARunThatWasCutOffIsRefused) {
   Cut["runs"][1]["outcome"] = "limit reached";
   const auto F = readTimeFile(Folder.write("t.json", jsonText(Cut)));
   ASSERT_FALSE(F);
-  EXPECT_EQ(F.error().What, "run 2, scan: its outcome is 'limit reached', "
+  EXPECT_EQ(F.error().What, "run 2, scan: outcome 'limit reached', "
                             "expected 'done'");
 }
 
@@ -262,7 +262,7 @@ TEST(TimeFile, WhateverElseAFileHoldsIsRefused) {
        {Untimed, Odd, None, Json::object(), Json::array(), Json(1)}) {
     const auto F = readTimeFile(Folder.write("t.json", jsonText(J)));
     ASSERT_FALSE(F) << J;
-    EXPECT_NE(F.error().What.find("expected what `splat render"),
+    EXPECT_NE(F.error().What.find("expected the output of `splat render"),
               std::string::npos)
         << F.error().What;
   }

@@ -87,7 +87,7 @@ public:
       To = From.get<double>();
   }
   void read(const Json &From, std::string &To) {
-    if (expect(From.is_string(), "a text"))
+    if (expect(From.is_string(), "a string"))
       To = From.get<std::string>();
   }
   template <typename T> void read(const Json &From, std::vector<T> &To) {

@@ -211,13 +211,13 @@ const char *timeKey(Work W) {
 
 std::string described(const Json &Measured) {
   if (Measured.contains("refused"))
-    return "cannot be: " + Measured["refused"].get<std::string>();
+    return "impossible: " + Measured["refused"].get<std::string>();
   const bool Draws = Measured.contains("view");
   return fmt::format(
       "{}: {:.3f} ms{}, chip {:.3g} mJ, {:.2f} mm2; {}",
       Measured["machine"].get<std::string>(),
       Measured[timeKey(Draws ? Work::Frames : Work::Iterations)].get<double>(),
-      Draws ? "" : " an iteration",
+      Draws ? "" : " per iteration",
       1e3 * Measured["chip_joules"]["value"].get<double>(),
       Measured["chip_um2"]["value"].get<double>() / 1e6,
       Measured[ClockedMachineKey].get<std::string>());

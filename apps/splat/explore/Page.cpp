@@ -315,7 +315,7 @@ std::string partsText(const Json &Results, const Json &Base) {
     Front.insert(Name.get<std::string>());
   std::string Text =
       fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}  {}\n", "% time", "% energy",
-                  "weight", "own front", "on both", "part, on the base");
+                  "weight", "own front", "on both", "part, on base");
   for (std::size_t I = 0; I < Results["parts"].size(); ++I) {
     const Json &Of = Results["parts"][I], &Is = Base["whole"]["parts"][I];
     const auto Both = std::ranges::count_if(Of["front"], [&](const Json &Name) {
@@ -346,7 +346,7 @@ std::string textOf(const Json &Results) {
   const Json &Base = *Machines["base"];
   const std::vector<Work> Does = workIn(Base);
   std::string Text = fmt::format(
-      "{} machines, {} of them on whole views, {} cannot be\n"
+      "{} machines, {} at full size, {} impossible\n"
       "base: {}\n",
       Results["machines"].size(), Whole, Refused,
       printable(Base["views"][0][ClockedMachineKey].get<std::string>()));
@@ -361,12 +361,12 @@ std::string textOf(const Json &Results) {
     Text += partsText(Results, Base);
   if (const Json &Both = Results["small_beside_whole"]; !Both.is_null()) {
     Text +=
-        fmt::format("rank correlation of small and whole views, {} machines "
-                    "drawn at random:",
+        fmt::format("rank correlation of small and full-size views, {} random "
+                    "machines:",
                     Both["machines"].get<unsigned>());
     for (const Work W : Does)
       Text += fmt::format(
-          "{} {:.3f} by {}rate, {:.3f} by {}energy",
+          "{} {:.3f} for {}rate, {:.3f} for {}energy",
           W == Does.front() ? "" : ",", Both[keysOf(W).RateOrder].get<double>(),
           Does.size() > 1 ? (W == Work::Frames ? "frame " : "iteration ") : "",
           Both[keysOf(W).EnergyOrder].get<double>(),

@@ -59,10 +59,11 @@ Expected<Parameter> SpaceReader::ofValues(const std::string &Name,
       Called.is_string() ? Called.get<std::string>() : "";
   if (!isPlainName(Target) || (Kind == "option") != Target.starts_with("--"))
     return expected(fmt::format("{}.{}", Key, Kind),
-                    Kind == "key" ? "a key of the configuration"
-                                  : "an option of splat render, as --tile");
+                    Kind == "key"
+                        ? "a configuration key"
+                        : "an option of splat render, such as --tile");
   if (!Of["values"].is_array() || Of["values"].empty())
-    return expected(Key + ".values", "a list of one value or more");
+    return expected(Key + ".values", "a list with at least one value");
   Parameter P{Name, {}};
   for (const Json &Value : Of["values"]) {
     const std::string Text = textOf(Value);
@@ -80,20 +81,20 @@ Expected<Parameter> SpaceReader::ofChoices(const std::string &Name,
                                            const Json &Choices) const {
   const std::string Key = fmt::format("parameters.{}.choices", Name);
   if (!Choices.is_object() || Choices.empty())
-    return expected(Key, "an object of one choice or more");
+    return expected(Key, "an object with at least one choice");
   Parameter P{Name, {}};
   for (const auto &[Choice, Settings] : Choices.items()) {
     if (!isPlainName(Choice))
       return expected(Key, "names of letters, digits, '-', '_' and '.'");
     if (!Settings.is_object() || Settings.empty())
       return expected(fmt::format("{}.{}", Key, Choice),
-                      "an object of keys of the configuration");
+                      "an object of configuration keys");
     Alternative A{Choice, "", {}};
     for (const auto &[Target, Value] : Settings.items()) {
       const std::string Text = textOf(Value);
       if (!isPlainName(Target) || Text.empty())
         return expected(fmt::format("{}.{}", Key, Choice),
-                        "keys of the configuration with numbers or names");
+                        "configuration keys with numbers or names");
       A.Settings +=
           fmt::format("{}{}={}", A.Settings.empty() ? "" : ",", Target, Text);
     }
@@ -124,8 +125,8 @@ Expected<Parameter> SpaceReader::parameter(const std::string &Name,
 Expected<Space> SpaceReader::read(const Json &All) {
   if (!All.is_object() || All.size() != 1 || !All.contains("parameters") ||
       !All["parameters"].is_object() || All["parameters"].empty())
-    return Error{Where, "expected an object with the key \"parameters\" alone, "
-                        "an object of one parameter or more"};
+    return Error{Where, "expected an object with only the key \"parameters\", "
+                        "an object with at least one parameter"};
   Space S;
   for (const auto &[Name, Of] : All["parameters"].items()) {
     auto One = parameter(Name, Of);
@@ -135,7 +136,7 @@ Expected<Space> SpaceReader::read(const Json &All) {
     for (const Alternative &A : One->Others)
       if (!Names.insert(A.Name).second)
         return expected("parameters." + Name,
-                        fmt::format("values of different names, found {} "
+                        fmt::format("values with different names, found {} "
                                     "twice",
                                     A.Name));
     S.push_back(std::move(*One));
@@ -152,7 +153,7 @@ static Expected<Space> spaceIn(const Expected<Json> &All,
   return All ? SpaceReader(Where).read(*All) : Expected<Space>(All.error());
 }
 
-static constexpr const char *Wanted = "a space of machines";
+static constexpr const char *Wanted = "a design space";
 
 Expected<Space> parseSpace(std::string_view Text, const std::string &Where) {
   return spaceIn(parseJson<Json>(Text, Where, Wanted), Where);

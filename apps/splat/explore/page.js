@@ -1,14 +1,14 @@
-// The page of `splat explore`: draws the machines and lets people choose one.
+// The page of `splat explore`: plots the machines, of which one can be selected.
 
 // What a machine does: the names of its figures, and of their factors against the base.
 const WORK = {
   frames: {
     unit: 'frame', each: 'a frame', rate: 'frames_per_second', joules: 'chip_joules', rateFactor: 'rate_factor', energyFactor: 'energy_factor',
-    rateLabel: 'frames a second', energyLabel: 'energy of the chip a frame', rateOrder: 'rate', energyOrder: 'chip_joules',
+    rateLabel: 'frames per second', energyLabel: 'energy of the chip per frame', rateOrder: 'rate', energyOrder: 'chip_joules',
   },
   iterations: {
     unit: 'iteration', each: 'an iteration', rate: 'iterations_per_second', joules: 'iteration_joules', rateFactor: 'iteration_rate_factor', energyFactor: 'iteration_energy_factor',
-    rateLabel: 'iterations a second', energyLabel: 'energy of the chip an iteration', rateOrder: 'iteration_rate', energyOrder: 'iteration_joules',
+    rateLabel: 'iterations per second', energyLabel: 'energy of the chip per iteration', rateOrder: 'iteration_rate', energyOrder: 'iteration_joules',
   },
 };
 
@@ -29,9 +29,9 @@ AXES.chip_mm2 = { label: 'area of the chip, mm2', of: f => f.chip_mm2, digits: 2
 for (const p of apart) {
   const w = WORK[p.work];
   AXES[`${p.part} ${w.rate}`] = { label: `${p.part}: ${w.rateLabel}`, of: f => f.parts[p.n][w.rate], digits: 1 };
-  AXES[`${p.part} ${w.joules}`] = { label: `${p.part}: mJ of the chip ${w.each}`, of: f => 1e3 * f.parts[p.n][w.joules], digits: 2 };
+  AXES[`${p.part} ${w.joules}`] = { label: `${p.part}: mJ of the chip per ${w.unit}`, of: f => 1e3 * f.parts[p.n][w.joules], digits: 2 };
 }
-const SIZES = { whole: 'whole views', small: 'small views' };
+const SIZES = { whole: 'full-size views', small: 'small views' };
 
 const state = {
   across: work[0].joules, up: work[0].rate, size: 'whole', selected: 'base',
@@ -69,7 +69,7 @@ function drawParts() {
   const chosen = data.machines.find(one => one.machine === state.selected);
   const shown = isJudged(chosen, 'whole') && chosen !== base ? [base, chosen] : [base];
   const who = m => (m === base ? 'base' : 'selected');
-  const table = element('table', {}, rowOf(['part', 'weight', 'tasks', ...shown.flatMap(m => ['a second', 'mJ', '% of the time', '% of the energy'].map(c => `${who(m)}: ${c}`)), 'machines on its front', 'of them on the workload\'s'], 'th'));
+  const table = element('table', {}, rowOf(['part', 'weight', 'tasks', ...shown.flatMap(m => ['per second', 'mJ', '% of time', '% of energy'].map(c => `${who(m)}: ${c}`)), 'machines on its front', 'of these on the workload\'s front'], 'th'));
   parts.forEach((p, n) => {
     const figures = shown.flatMap(m => {
       const f = m.whole.parts[n], w = WORK[p.work];
@@ -87,10 +87,10 @@ function drawDetails() {
   for (const [text, words] of [['--set ', m.settings], ['', m.arguments.join(' ')]])
     if (words) box.append(element('p', { class: 'note' }, element('code', {}, text + words)));
   if (!isJudged(m, 'whole')) {
-    box.append(element('p', {}, (m.whole ?? m.small).refused ?? 'It was judged on small views alone.'));
+    box.append(element('p', {}, (m.whole ?? m.small).refused ?? 'It was measured only on small views.'));
     return;
   }
-  const table = element('table', {}, rowOf([parts.length ? 'task' : 'view', 'stage', 'Mcycles', `share of the ${work.map(w => w.unit).join(' or ')}`, 'most cycles go to', 'in % of its cycles', 'work, % of the most', 'DRAM, % of the most'], 'th'));
+  const table = element('table', {}, rowOf([parts.length ? 'task' : 'view', 'stage', 'Mcycles', `share of the ${work.map(w => w.unit).join(' or ')}`, 'main reason', '% of its cycles', 'work, % of peak', 'DRAM, % of peak'], 'th'));
   for (const view of m.views) {
     const all = view.stages.reduce((sum, s) => sum + s.cycles, 0);
     for (const s of view.stages)
@@ -122,8 +122,8 @@ function drawRoof() {
     data: { datasets: [dots(ofChosen, 'chosen', true), dots(ofBase, 'ink', false), roof] },
     options: {
       scales: {
-        x: axis('work against traffic, as shares of the most', { type: 'logarithmic', min: left, max: right, ticks: { maxRotation: 0 } }),
-        y: axis('share of the most work', { type: 'logarithmic', min: low, max: 1.3 }),
+        x: axis('work / traffic, fractions of peak', { type: 'logarithmic', min: left, max: right, ticks: { maxRotation: 0 } }),
+        y: axis('work, fraction of peak', { type: 'logarithmic', min: low, max: 1.3 }),
       },
       plugins: {
         legend: { display: false },
@@ -155,7 +155,7 @@ function drawWorth() {
   }
   // Why one cannot be stands where its first figure would.
   const text = columns[1][2];
-  columns[1][2] = w => (w.refused ? `cannot be: ${w.refused}` : text(w));
+  columns[1][2] = w => (w.refused ? `impossible: ${w.refused}` : text(w));
   drawColumns(byId('worth'), columns, data.worth, state.worth, sort => { state.worth = sort; drawWorth(); }, (row, w) => {
     row.addEventListener('click', () => select(w.machine));
   });
@@ -164,11 +164,11 @@ function drawWorth() {
 function drawPairs() {
   const box = byId('pairs');
   if (!data.pairs.length) {
-    box.textContent = 'None was found.';
+    box.textContent = 'None found.';
     return;
   }
   const several = work.length > 1;
-  const table = element('table', {}, rowOf([...(several ? ['of'] : []), 'one', 'other', 'together beyond both', 'one standard error'], 'th'));
+  const table = element('table', {}, rowOf([...(several ? ['of'] : []), 'first', 'second', 'interaction', 'standard error'], 'th'));
   for (const w of work) {
     const kind = Object.keys(WORK).find(key => WORK[key] === w);
     for (const p of data.pairs.filter(one => one.of === kind).slice(0, 20))
@@ -189,11 +189,11 @@ function drawTable() {
 function drawSummary() {
   const whole = data.machines.filter(m => isJudged(m, 'whole')).length, refused = data.machines.filter(m => (m.whole ?? m.small).refused).length;
   const both = data.small_beside_whole;
-  const lines = [`The base is ${base.views[0].clocked_machine}. ${data.machines.length} machines, ${whole} of them judged on whole views (${data.views.join(', ')}), ${data.front.length} on the front, ${refused} cannot be.`];
+  const lines = [`The base is ${base.views[0].clocked_machine}. ${data.machines.length} machines, ${whole} of them at full size (${data.views.join(', ')}), ${data.front.length} on the front, ${refused} impossible.`];
   if (both)
-    lines.push(`Small views put ${both.machines} machines that were drawn at random in the order of whole ones with a rank correlation of ` +
-      `${work.map(w => `${number(both[w.rateOrder], 3)} by ${w.rateLabel} and ${number(both[w.energyOrder], 3)} by energy${work.length > 1 ? ` of ${w.each}` : ''}`).join(', ')}.`);
-  if (data.different_pictures > 1) lines.push(`The machines draw ${data.different_pictures} pictures that differ in some bits.`);
+    lines.push(`Rank correlation of small and full-size views, ${both.machines} random machines: ` +
+      `${work.map(w => `${number(both[w.rateOrder], 3)} for ${w.rateLabel} and ${number(both[w.energyOrder], 3)} for energy${work.length > 1 ? ` of ${w.each}` : ''}`).join(', ')}.`);
+  if (data.different_pictures > 1) lines.push(`The machines render ${data.different_pictures} pictures that are not bit-identical.`);
   byId('summary').textContent = lines.join(' ');
 }
 
@@ -201,9 +201,9 @@ function sayHowJoined() {
   const several = work.length > 1;
   byId('criteria').textContent = `${work.map(w => `${w.rateLabel}, energy${several ? ` of ${w.each}` : ''}`).join(', ')} and area`;
   byId('paired').textContent = work.map(w => w.rateLabel).join(' or ');
-  byId('joined').textContent = `${several ? 'Frames and iterations are not joined: each has its own rate and energy. ' : ''}` +
-    `The rate is the sum of the weights over the sum of the weighted times of all ${work.map(w => `${w.unit}s`).join(', or of all ')}; the energy is their weighted mean. ` +
-    'A share is of these weighted times or energies.';
+  byId('joined').textContent = `${several ? 'Frames and iterations are not combined: each has its own rate and energy. ' : ''}` +
+    `The rate is the sum of the weights divided by the sum of the weighted times of all ${work.map(w => `${w.unit}s`).join(', or of all ')}; the energy is their weighted mean. ` +
+    'Shares are those of the weighted times or energies.';
 }
 
 function draw() {

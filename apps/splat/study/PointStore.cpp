@@ -14,7 +14,7 @@ namespace vorion::splat {
 using Json = nlohmann::ordered_json;
 
 Expected<Json> readOwnJson(const std::string &Path) {
-  return readRegularJson<Json>(Path, "what splat wrote there");
+  return readRegularJson<Json>(Path, "a file written by splat");
 }
 
 Expected<Success> makeFolders(const std::string &Folder) {
@@ -22,8 +22,8 @@ Expected<Success> makeFolders(const std::string &Folder) {
     std::error_code Problem;
     std::filesystem::create_directories(Folder + "/" + Name, Problem);
     if (Problem)
-      return Error{Folder, fmt::format("cannot make the folder: {}, expected "
-                                       "one that can be written",
+      return Error{Folder, fmt::format("cannot create the folder: {}, expected "
+                                       "a writable folder",
                                        Problem.message())};
   }
   return Success{};
@@ -45,11 +45,11 @@ std::string PointStore::problem(const std::string &Name,
   if (!Read)
     return Read.error().What;
   if (!Read->is_object() || Read->value("point", Json()) != Name)
-    return "another point, expected the one of that name";
+    return "another point, expected the point of that name";
   if (const auto Other = difference(Read->value("made_from", Json()), From);
       !Other.empty())
     return fmt::format("stale, differs in {}", Other);
-  return IsMeasurement(*Read) ? "" : "damaged, expected what a sweep wrote";
+  return IsMeasurement(*Read) ? "" : "damaged, expected a measurement";
 }
 
 const Json *PointStore::find(const std::string &Name, const Provenance &From) {
@@ -71,7 +71,7 @@ Expected<Json> PointStore::get(const std::string &Name,
     return *Found;
   return Error{
       Folder,
-      fmt::format("point {} is missing, expected it to be measured", Name)};
+      fmt::format("point {} is missing, expected its measurement", Name)};
 }
 
 Expected<Success> PointStore::keep(const std::string &Name,
@@ -80,8 +80,8 @@ Expected<Success> PointStore::keep(const std::string &Name,
   Json Point{{"point", Name}, {"made_from", From}};
   Point.update(Measured);
   if (!IsMeasurement(Point))
-    return Error{Name, "figures are missing or are no finite numbers, expected "
-                       "a measurement"};
+    return Error{Name, "values are missing or not finite, expected a "
+                       "measurement"};
   if (auto Written =
           writeFileAtomically(fileOf(Name), jsonText(Point, 1) + "\n");
       !Written)

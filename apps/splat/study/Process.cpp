@@ -101,16 +101,17 @@ runProgram(std::vector<std::string> Words,
                   pointersTo(Words).data(), pointersTo(Environment).data());
   posix_spawn_file_actions_destroy(&Actions);
   if (Problem != 0)
-    return Error{"",
-                 fmt::format("cannot start {}: {}, expected a machine with "
-                             "room for a process",
-                             Words.front(), std::strerror(Problem)),
-                 ExitCode::LimitReached};
+    return Error{
+        "",
+        fmt::format("cannot start {}: {}, expected sufficient resources "
+                    "for a process",
+                    Words.front(), std::strerror(Problem)),
+        ExitCode::LimitReached};
   rusage Used{};
   const int Status = waitFor(Child, GiveUp, Used);
   if (!WIFEXITED(Status))
     return Error{"",
-                 fmt::format("'{}' was ended by a signal: {}",
+                 fmt::format("'{}' was terminated by a signal: {}",
                              fmt::join(Words, " "), lastLine(LogFile)),
                  ExitCode::Internal};
   return ProcessEnd{static_cast<ExitCode>(WEXITSTATUS(Status)),

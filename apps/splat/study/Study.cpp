@@ -80,7 +80,7 @@ pointsNamed(const std::vector<StudyPoint> &Known,
     const auto At = std::ranges::find(Known, Name, &StudyPoint::Name);
     if (At == Known.end())
       return Error{"",
-                   fmt::format("--only {}: no such {}, expected {}{}", Name,
+                   fmt::format("--only {}: unknown {}, expected {}{}", Name,
                                What, Wanted,
                                didYouMean(Name, std::views::transform(
                                                     Known, &StudyPoint::Name))),

@@ -93,7 +93,7 @@ TEST_F(StudyTest, NamedPointsAreMeasuredAlone) {
   ASSERT_FALSE(Unknown);
   EXPECT_EQ(Unknown.error().Code, ExitCode::Usage);
   EXPECT_EQ(Unknown.error().What,
-            "--only defaults: no such point, expected one "
+            "--only defaults: unknown point, expected one "
             "of those; did you mean default?");
 }
 
@@ -109,7 +109,7 @@ TEST_F(StudyTest, AFailureEndsItAndWhatWasMeasuredIsKept) {
   const auto Missing = Kept.get("c", {{"scene", "A"}});
   ASSERT_FALSE(Missing);
   EXPECT_EQ(Missing.error().What,
-            "point c is missing, expected it to be measured");
+            "point c is missing, expected its measurement");
 }
 
 } // namespace
