@@ -1,5 +1,5 @@
-/// Gradients of the training loss at a scene, in fp64: what every reciprocal
-/// unit and order of sums is held against.
+/// Gradients of the training loss in fp64, the reference of reciprocal units
+/// and summation orders.
 #pragma once
 
 #include "scene/Scene.h"
@@ -18,22 +18,23 @@ struct GradientFiles {
       : Cameras(Folder + "/cameras.json"), Upstream(Folder + "/upstream.npz"),
         Gradients(Folder + "/gradients.npz") {}
   static constexpr const char *View = "view"; ///< its name in Cameras
-  std::string Cameras;                        ///< the view, alone
-  std::string Upstream;  ///< the loss's gradients by the pixels
-  std::string Gradients; ///< f64_g_*, as the reference results name them
+  std::string Cameras;                        ///< only the view
+  std::string Upstream;  ///< gradients of the loss by pixels
+  std::string Gradients; ///< f64_g_*, as in reference results
 };
 
-/// Renders \p S over \p Background as \p V sees it, by INRIA's rules with
-/// support `exact`, and takes the loss against its picture back. Nothing comes
-/// back from pixels where fp32 may decide otherwise.
+/// Renders the view \p V of \p S over \p Background, by INRIA's rules with the
+/// support `exact`, and computes the gradients of the loss. Gradients of
+/// doubtful pixels are 0.
 Expected<Success>
 writeGradientReference(const GradientFiles &Files, const Scene &S,
                        const TrainView &V,
                        const std::array<float, 3> &Background);
 
-/// Relative L2 differences of f32_g_* of \p File, which `splat gradients`
-/// wrote, by name ("means"), and the largest ("largest"). Of quaternions,
-/// which vanish for round Gaussians, against a share of the scales' at least.
+/// Relative L2 errors of f32_g_* in \p File, an output of `splat gradients`, by
+/// name ("means"), and their maximum ("largest"). Gradients of quaternions
+/// vanish for isotropic Gaussians, so their norm is bounded below by a fraction
+/// of that of scales.
 Expected<nlohmann::ordered_json> gradientErrors(const GradientFiles &Files,
                                                 const std::string &File);
 

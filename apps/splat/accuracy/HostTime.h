@@ -1,5 +1,4 @@
-/// How long the host takes to say how long the machine takes: what accuracy of
-/// cycles costs in seconds of the host.
+/// Simulation times on the host, and the accuracy of the resulting cycles.
 #pragma once
 
 #include "accuracy/Sweep.h"
@@ -11,23 +10,24 @@
 
 namespace vorion::splat {
 
-/// A way to simulate.
+/// The results of a simulation method.
 struct HostTime {
   std::string Simulation;
-  /// Processor seconds of the host, rising: a run each.
+  /// Processor seconds of each run, in ascending order.
   std::vector<double> Seconds;
-  bool Extrapolated = false; ///< the seconds, from a part of the work
-  /// Of the cycles that it gives, against the clock's or, of the RTL, of the
-  /// clock's against it, in percent.
+  bool Extrapolated = false; ///< whether seconds are extrapolated from a part
+                             ///< of the work
+  /// Error of its cycles compared with the clock, or for the RTL, error of the
+  /// clock compared with the RTL, in percent.
   std::optional<double> ErrorPercent;
   std::string Note;
 };
 
-/// Measures on \p Views, with the default setting: functional, sampled and
-/// clocked simulation, each by processes of their own, and the rasterizer in
-/// SystemVerilog on tiles of the first view that are drawn at random. What is
-/// missing for one of these is said in its note, and it has no seconds. \p Log
-/// gets a line for each that begins.
+/// Measures functional, sampled and clocked simulation of \p Views with the
+/// default setting, each in separate processes, and the rasterizer in
+/// SystemVerilog on random tiles of the first view. A method that cannot run
+/// has no seconds, and the reason in its note. \p Log is called at the start of
+/// each measurement.
 Expected<std::vector<HostTime>>
 measureHostTime(const SweepPlan &P, const std::vector<Camera> &Views,
                 const std::function<void(std::string_view)> &Log);

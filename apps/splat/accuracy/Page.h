@@ -1,4 +1,4 @@
-/// The HTML pages of sweeps: each one file that needs no other and no network.
+/// The HTML pages of sweeps, each in one file that needs no network.
 #pragma once
 
 #include "accuracy/HostTime.h"
@@ -11,28 +11,27 @@
 
 namespace vorion::splat {
 
-/// page.html and train.html with their scripts; @DATA@ stands where the
-/// measurements go.
+/// page.html and train.html with their scripts; @DATA@ is the placeholder of
+/// the measurements.
 std::string_view pageTemplate();
 std::string_view trainPageTemplate();
 
-/// What the page is told besides the measurements.
+/// The data of the page besides the measurements.
 struct PageHead {
-  std::string Verdict;        ///< the answer, one sentence
+  std::string Verdict;        ///< the result, one sentence
   std::vector<HostTime> Host; ///< may be empty
-  std::string Made;           ///< a line: what was measured
-  double FloorDb;             ///< to begin with
-  /// Views that choose the recommended one.
+  std::string Made;           ///< one line of provenance
+  double FloorDb;             ///< initial minimum PSNR
+  /// Views by which the recommended setting is selected.
   std::vector<const Camera *> ChosenOn;
 };
 
-/// The page of \p Settings, the default first, on all views, all of which are
-/// measured.
+/// The page of \p Settings, the default first. All points must be measured.
 Expected<std::string> pageOf(const SweepPlan &P, PointStore &Kept,
                              const PageHead &Head,
                              const std::vector<Setting> &Settings);
 
-/// The page of trainResults() (TrainSweep.h); \p Made: lines for the foot.
+/// The page of trainResults() (TrainSweep.h); \p Made: lines of the footer.
 std::string trainPageOf(const nlohmann::ordered_json &Results,
                         const std::vector<std::string> &Made);
 

@@ -1,5 +1,5 @@
-/// The fp64 pictures that settings are judged by: rendered once a view and
-/// support, kept as files.
+/// The fp64 reference pictures, rendered once for each view and support, and
+/// stored as files.
 #pragma once
 
 #include "accuracy/Sweep.h"
@@ -11,13 +11,13 @@
 
 namespace vorion::splat {
 
-/// Renders the picture for a point, unless it is there, made from the same. The
-/// scene is read once for all points. \p P must live as long; \p Log gets a
-/// line for each picture.
+/// Renders the picture for a point, unless it is stored with the same
+/// provenance. The scene is read once. \p P must outlive the function; \p Log
+/// is called for each picture.
 std::function<Expected<Success>(const Point &)>
 referenceMaker(const SweepPlan &P, std::function<void(std::string_view)> Log);
 
-/// The picture for \p Of, which referenceMaker() has made.
+/// The reference picture for \p Of, made by referenceMaker().
 Expected<ExactImage> referenceOf(const SweepPlan &P, const Point &Of);
 
 } // namespace vorion::splat

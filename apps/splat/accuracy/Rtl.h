@@ -8,20 +8,20 @@
 
 namespace vorion::splat {
 
-/// How it fared on some tiles.
+/// Results for a sample of tiles.
 struct RtlRun {
-  unsigned Tiles = 0;    ///< drawn at random
-  unsigned AllTiles = 0; ///< of the view
-  double Seconds = 0;    ///< of the host's processors, for Tiles
-  /// Of the clock's cycles against the RTL's: of all Tiles, and of the worst.
+  unsigned Tiles = 0;    ///< random sample
+  unsigned AllTiles = 0; ///< total of the view
+  double Seconds = 0;    ///< processor seconds for Tiles
+  /// Error of the clock's cycles compared with the RTL: of all Tiles, and of
+  /// the worst tile.
   double ErrorPercent = 0, WorstPercent = 0;
   unsigned WrongPixels = 0;
 };
 
-/// Builds it with Verilator in \p P's folder, and runs it on tiles of \p View,
-/// with the exponential unit "table", which is the one that it has. An Error
-/// says what is missing here, or what went wrong. \p Log gets a line for what
-/// takes long.
+/// Builds the RTL with Verilator in \p P's folder, and simulates it on tiles of
+/// \p View with its exponential unit "table". An Error names the missing
+/// program or the failed step. \p Log is called at the start of slow steps.
 Expected<RtlRun> runRtl(const SweepPlan &P, const Camera &View,
                         const std::function<void(std::string_view)> &Log);
 

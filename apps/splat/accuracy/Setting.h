@@ -1,4 +1,4 @@
-/// What `splat accuracy` may choose, and what was chosen.
+/// The knobs of `splat accuracy`, and settings of them.
 #pragma once
 
 #include "picture/Options.h"
@@ -11,7 +11,7 @@
 
 namespace vorion::splat {
 
-/// The options that a sweep tries: those of `splat render`, then those of
+/// The options that a sweep varies: those of `splat render`, then those of
 /// `splat train` and `splat gradients`.
 enum class KnobId {
   Exp,
@@ -29,54 +29,53 @@ enum class KnobId {
   Sum
 };
 
-/// An option that buys accuracy with time or area.
+/// An option that trades accuracy for time or area.
 struct Knob {
   KnobId Id;
-  std::string Name;                ///< the option without its dashes
+  std::string Name;                ///< the option without dashes
   std::vector<std::string> Values; ///< the default first
-  std::string CoresName; ///< the cores' path's option; empty: it has none
+  std::string CoresName; ///< the option of the path `simt`; empty: none
 };
 
-/// All of `splat render`.
+/// The knobs of `splat render`.
 const std::vector<Knob> &allKnobs();
 
-/// Those of `splat train` and `splat gradients` likewise.
+/// The knobs of `splat train` and `splat gradients`.
 const std::vector<Knob> &trainKnobs();
 
-/// The one of either list.
+/// The knob \p Id of either list.
 const Knob &knob(KnobId Id);
 
-/// Of allKnobs().
+/// The names of allKnobs().
 std::vector<std::string> knobNames();
 
-/// Those of \p Names, in the order of allKnobs(); all for an empty list.
+/// The knobs \p Names, in the order of allKnobs(); all for an empty list.
 Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names);
 
-/// A knob at another value than its default.
+/// A knob with a value other than its default.
 struct Choice {
   KnobId Id;
-  std::size_t Value; ///< place among the knob's values
+  std::size_t Value; ///< index of the knob's values
 
   bool operator==(const Choice &) const = default;
 };
 
-/// Values of some knobs, in the order of the knobs; the others have their
-/// defaults.
+/// Values of some knobs, in the order of knobs; the others have their defaults.
 class Setting {
 public:
   Setting() = default;
-  /// Value \p Value of \p K added; \p K comes after those that are there.
+  /// Adds value \p Value of \p K, which must follow the existing knobs.
   Setting with(const Knob &K, std::size_t Value) const;
 
   /// "default", or "exp=poly3,tile=32".
   std::string name() const;
-  /// Reads a name, with knobs of allKnobs().
+  /// Parses a name, with knobs of allKnobs().
   static Expected<Setting> parse(const std::string &Name);
 
-  /// Knobs that do not have their default.
+  /// Number of knobs that differ from their default.
   std::size_t size() const { return Choices.size(); }
-  /// The chosen value of \p Id as its place among the knob's values, 0 for the
-  /// default; and as the option has it.
+  /// The value of \p Id, as index of the knob's values (0 for the default) and
+  /// as text of the option.
   std::size_t place(KnobId Id) const;
   const std::string &value(KnobId Id) const {
     return knob(Id).Values[place(Id)];
@@ -87,7 +86,8 @@ public:
 
   /// For `splat render --path raster`.
   std::vector<std::string> arguments() const;
-  /// For `splat render --path simt`, or nothing if the cores lack a choice.
+  /// For `splat render --path simt`; empty if the cores do not support a
+  /// choice.
   std::optional<std::vector<std::string>> coresArguments() const;
 
   bool operator==(const Setting &) const = default;
@@ -96,7 +96,7 @@ private:
   std::vector<Choice> Choices;
 };
 
-/// The default, then each other value of each knob alone.
+/// The default, then all single changes.
 std::vector<Setting> singleChanges(const std::vector<Knob> &Knobs);
 
 } // namespace vorion::splat

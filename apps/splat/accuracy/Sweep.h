@@ -1,4 +1,4 @@
-/// Measuring settings: each on each view, kept as a file.
+/// Measurement of settings on views.
 #pragma once
 
 #include "accuracy/Front.h"
@@ -13,20 +13,20 @@
 
 namespace vorion::splat {
 
-/// What a sweep measures, and where it keeps it.
+/// The parameters of a sweep.
 struct SweepPlan {
   std::string ScenePath, CameraFile, Folder;
   DeviceOptions Machine;
-  /// Options for every `splat render`, reading the scene among them.
+  /// Options of every `splat render`, including those for reading the scene.
   std::vector<std::string> CommonArguments;
   std::vector<Camera> Views;
   std::vector<Knob> Knobs;
-  bool Cores = true; ///< the kernels-only path too
-  /// The chip's joules are a cost, and the machine must have them; else they
-  /// are only measured where it has.
+  bool Cores = true; ///< also measure the path `simt`
+  /// Whether the chip's joules are a cost, which the machine must then support;
+  /// otherwise they are measured if supported.
   bool Energy = false;
-  unsigned ThumbWidth = 240; ///< of the page's pictures, px
-  Provenance From;           ///< what all points are made from
+  unsigned ThumbWidth = 240; ///< width of the page's pictures, px
+  Provenance From;           ///< common provenance of all points
   std::function<Expected<SceneFile>()> Load;
 };
 
@@ -39,36 +39,37 @@ struct Point {
   std::string name() const;
 };
 
-/// All of \p Settings on all views of \p P.
+/// All \p Settings on all views of \p P.
 std::vector<Point> pointsOf(const SweepPlan &P,
                             const std::vector<Setting> &Settings);
 
 /// The point with this name.
 Expected<Point> pointNamed(const SweepPlan &P, const std::string &Name);
 
-/// What the measurement of a point is made from.
+/// The provenance of the measurement of a point.
 Provenance provenanceOf(const SweepPlan &P, const Point &Of);
 
-/// \p Points as points of a study. They read \p P while they are measured.
+/// \p Points as points of a study. \p P must outlive their measurement.
 std::vector<StudyPoint>
 studyPoints(const SweepPlan &P, const std::vector<Point> &Points,
             const std::function<void(std::string_view)> &Log);
 
-/// The measurements that \p P's folder has; \p Log is told of each file that
-/// is not used.
+/// The stored measurements in \p P's folder; \p Log is called for each rejected
+/// file.
 PointStore storeOf(const SweepPlan &P,
                    std::function<void(std::string_view)> Log);
 
-/// Of `splat render`: a view of \p P's scene into the file \p Output.
+/// Arguments of `splat render` for a view of \p P's scene, written to \p
+/// Output.
 std::vector<std::string> renderWords(const SweepPlan &P,
                                      const std::string &View,
                                      const std::string &Output);
 
-/// The measurement of a point that is there; an Error of one that is not.
+/// The stored measurement of a point; an Error if there is none.
 Expected<nlohmann::ordered_json> readPoint(const SweepPlan &P, PointStore &Kept,
                                            const Point &Of);
 
-/// \p Settings over \p Views, all of which are measured.
+/// The results of \p Settings over \p Views, all of which must be measured.
 Expected<std::vector<Candidate>>
 candidates(const SweepPlan &P, PointStore &Kept,
            const std::vector<Setting> &Settings,

@@ -7,13 +7,13 @@
 
 namespace vorion::splat {
 
-/// \p I averaged down to \p Width pixels (or its own width if that is less), as
-/// a data URI of a PNG.
+/// \p I, downsampled to \p Width pixels (at most its own width), as a data URI
+/// of a PNG.
 Expected<std::string> thumbnail(const ExactImage &I, unsigned Width);
 
-/// How far \p A and \p B, of one size, are apart: the largest difference of
-/// each block of pixels, from black at 1e-5 to white at 1 in steps of equal
-/// ratio, red from 1/255 on.
+/// The difference of \p A and \p B, which have the same size: the maximum of
+/// each block of pixels, on a logarithmic scale from black (1e-5) to white (1),
+/// red above 1/255.
 Expected<std::string> differenceThumbnail(const ExactImage &A,
                                           const ExactImage &B, unsigned Width);
 

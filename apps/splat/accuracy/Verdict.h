@@ -1,4 +1,4 @@
-/// The answer of `splat accuracy` in one sentence.
+/// The result of `splat accuracy` in one sentence.
 #pragma once
 
 #include "accuracy/Front.h"
@@ -8,10 +8,10 @@
 
 namespace vorion::splat {
 
-/// What the exponential unit costs in cycles, area and energy, by those of
-/// \p All, the default first, that change it alone. Where none does, what the
-/// fastest setting with at least \p FloorDb saves. \p On: the machine and its
-/// clock.
+/// The cost of the exponential unit in cycles, area and energy, from the
+/// candidates of \p All that change only this knob; the default is the first.
+/// Without such candidates, the saving of the fastest setting with at least \p
+/// FloorDb. \p On: the machine and its clock.
 std::string verdictOf(const std::vector<Candidate> &All, double FloorDb,
                       const std::string &On);
 

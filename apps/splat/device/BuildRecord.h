@@ -1,24 +1,24 @@
-/// Which programs this computer has compiled before.
+/// A record of the programs that this computer has compiled.
 #pragma once
 
 #include <string>
 
 namespace vorion::splat {
 
-/// Where PoCL keeps compiled kernels (its documentation, "POCL_CACHE_DIR");
-/// empty if it keeps none.
+/// The folder of PoCL's kernel cache (its documentation, "POCL_CACHE_DIR");
+/// empty if there is none.
 std::string kernelCacheFolder();
 
-/// A mark a program beside PoCL's cached kernels, so that what clears the cache
-/// clears the record. A mark that is wrong costs time and changes no result.
+/// One marker file per program in PoCL's kernel cache, so that clearing the
+/// cache clears the record. A wrong marker costs time and changes no result.
 class BuildRecord {
 public:
-  /// In the folder of the kernel cache, as PoCL's environment names it; without
-  /// a cache nothing is ever known or kept.
+  /// Uses the folder of the kernel cache from PoCL's environment; without a
+  /// cache the record is always empty.
   BuildRecord();
   explicit BuildRecord(std::string Folder);
 
-  /// \p Key: what made a program, hashed to a file's name.
+  /// \p Key: the provenance of a program, which is hashed to a file name.
   bool has(const std::string &Key) const;
   void add(const std::string &Key) const;
 

@@ -1,5 +1,5 @@
-/// The machine and the clock that a time is of, in words, as they stand beside
-/// every time that is printed or kept: "prototype, 530 MHz, clock version 3".
+/// The machine and clock of a time, as text that accompanies every printed or
+/// stored time: "prototype, 530 MHz, clock version 3".
 #pragma once
 
 #include "device/TimeReport.h"
@@ -9,15 +9,14 @@
 
 namespace vorion::splat {
 
-/// Of \p R.
+/// The machine and clock of \p R.
 std::string clockedMachine(const TimeReport &R);
 
-/// Of a time report as reports have it. Older ones do not name their machine,
-/// which is "unknown" then. Throws an exception of the library where it has no
-/// clock.
+/// The same for a time report in JSON. In older reports the machine is
+/// "unknown". Throws an exception of the library if it has no clock.
 std::string clockedMachine(const nlohmann::ordered_json &Report);
 
-/// What such words are called in JSON.
+/// The key of this text in JSON.
 inline constexpr const char *ClockedMachineKey = "clocked_machine";
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// The machine that a Vorion device is, as reports have it.
+/// The configuration of a Vorion device in reports.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -8,10 +8,10 @@
 
 namespace vorion::splat {
 
-/// What VORION_CONFIG of \p O says, a machine's name, a file or the text
-/// itself, with the values that VORION_SET changes
-/// (runtime/include/vorion/runtime.h) and the plugins of VORION_PLUGINS, of
-/// which one may compute the rasterizers' exponentials (docs/plugins.md).
+/// The value of VORION_CONFIG of \p O (the name of a machine, a file, or JSON
+/// text), the changes of VORION_SET (runtime/include/vorion/runtime.h), and the
+/// plugins of VORION_PLUGINS, one of which may compute the rasterizers'
+/// exponentials (docs/plugins.md).
 Expected<nlohmann::ordered_json> machineConfiguration(const DeviceOptions &O);
 
 } // namespace vorion::splat

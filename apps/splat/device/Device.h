@@ -18,7 +18,7 @@
 namespace vorion::splat {
 
 /// Loads the OpenCL platforms into the process, which takes longer than opening
-/// a device does. Device::open() does it where nobody has.
+/// a device. Device::open() loads them if necessary.
 void loadPlatforms();
 
 /// The end of messages about a possibly incomplete installation.
@@ -28,50 +28,51 @@ inline constexpr std::string_view SeeDoctor =
 /// An opened device with its context and its in-order queues.
 class Device {
 public:
-  /// Opens the first device whose name contains \p Wanted, or, where that is
-  /// empty, "Vorion", or else the first device there is. The error lists what
-  /// was found, or says why a Vorion platform has no device. \p Options are for
-  /// that platform alone.
+  /// Opens the first device whose name contains \p Wanted. If \p Wanted is
+  /// empty, opens the first Vorion device, or otherwise the first device. The
+  /// error lists the devices, or the reason why a Vorion platform has none. \p
+  /// Options apply only to that platform.
   static Expected<Device> open(const std::string &Wanted,
                                const DeviceOptions &Options = {});
 
   const cl::Context &context() const { return Context; }
-  /// \p Profiled: the one whose kernels are clocked where the option
-  /// VORION_TIME is "profiled". What is given to one queue must have ended
-  /// before something is given to the other.
+  /// \p Profiled: the queue whose kernels are timed if VORION_TIME is
+  /// "profiled". Commands on one queue must have completed before commands are
+  /// enqueued on the other.
   const cl::CommandQueue &queue(bool Profiled = false) const {
     return Profiled ? ProfiledQueue : Queue;
   }
   const cl::Device &handle() const { return Handle; }
-  /// What it was opened with.
+  /// The options that it was opened with.
   const DeviceOptions &options() const { return Options; }
-  /// Why the last command failed, in the platform's words; empty where it does
-  /// not say. A second call gives nothing.
+  /// The platform's message about the last failed command; empty if there is
+  /// none, and after the first call.
   std::string takeMessage() const;
 
   const std::string &name() const { return Name; }
-  /// Device and driver version, and the platform's.
+  /// Versions of device, driver and platform.
   std::string version() const;
   /// Whether it has a rasterizer and counters (extension cl_vorion).
   bool isVorion() const { return EventInfo != nullptr; }
   unsigned computeUnits() const { return ComputeUnits; }
-  /// Work-groups that run at the same time, of a kernel without a rasterizer.
+  /// Work-groups that run concurrently, for a kernel that does not use the
+  /// rasterizer.
   unsigned groupsAtOnce() const { return ComputeUnits * WarpsPerCore; }
-  /// Work-items that a core steps together, in order where they meet in local
-  /// memory (docs/abi.md); 1 on a device that says nothing of its order.
+  /// Work-items that a core executes in lockstep, with ordered accesses to
+  /// local memory (docs/abi.md); 1 for a device without a specified order.
   unsigned lanes() const { return Lanes; }
   uint64_t globalBytes() const { return GlobalBytes; }
   uint64_t largestAllocation() const { return LargestAllocation; }
 
-  /// The counters of an ended kernel; nothing where the device has none.
+  /// The counters of a completed kernel; empty if the device has none.
   std::optional<KernelCounters> counters(const cl::Event &Event) const;
-  /// How long an ended kernel took on the machine; nothing where the device has
-  /// no clock or it is off. An Error if the device says what cannot be read.
+  /// The simulated time of a completed kernel; empty without the clock. An
+  /// Error if the report is malformed.
   Expected<std::optional<TimeReport>> timeReport(const cl::Event &Event) const;
 
-  /// Whether a report fits what is to be made of it: an error ends the run.
+  /// A check of the first report; an error ends the run.
   using TimeCheck = std::function<Expected<Success>(const TimeReport &)>;
-  /// Launchers ask \p Check for the first report that they get.
+  /// Launchers call \p Check with their first report.
   void setTimeCheck(TimeCheck Check) { CheckTime = std::move(Check); }
   const TimeCheck &timeCheck() const { return CheckTime; }
 
@@ -80,7 +81,8 @@ private:
   Device();
 
   DeviceOptions Options;
-  std::shared_ptr<Messages> Received; ///< before the context, which tells it
+  std::shared_ptr<Messages> Received; ///< before the context, which sends
+                                      ///< messages to it
   cl::Device Handle;
   cl::Context Context;
   cl::CommandQueue Queue, ProfiledQueue;

@@ -1,4 +1,4 @@
-/// What the Vorion device is opened with.
+/// The options of the Vorion device.
 #pragma once
 
 #include "vorion/support/ClockText.h"
@@ -8,36 +8,36 @@
 
 namespace vorion::splat {
 
-/// Texts by the names of the environment's variables that the platform reads
-/// (docs/debugging.md). What the command line gives goes before the
-/// environment.
+/// Values of environment variables that the platform reads (docs/debugging.md).
+/// The command line overrides the environment.
 class DeviceOptions {
 public:
-  /// \p Option is the option that says so; empty if none does.
+  /// \p Option is the command-line option; empty if there is none.
   void set(const std::string &Variable, std::string Text,
            std::string Option = "") {
     CommandLine[Variable] = std::move(Text);
     Givers[Variable] = std::move(Option);
   }
-  /// Of the command line.
+  /// The values from the command line.
   const std::map<std::string, std::string> &commandLine() const {
     return CommandLine;
   }
-  /// Of the command line, else of the environment; empty for none.
+  /// The value from the command line or the environment; empty if there is
+  /// none.
   std::string text(const std::string &Variable) const;
-  /// The option that gave \p Variable its text; empty if none did.
+  /// The option that set \p Variable; empty if none did.
   std::string giver(const std::string &Variable) const;
-  /// \p Problem, of which the platform says "VARIABLE: what is wrong", as one
-  /// of the option that gave the variable its text.
+  /// The platform's message \p Problem, "VARIABLE: what is wrong", with the
+  /// name of the option that set the variable instead.
   std::string inOurWords(const std::string &Problem) const;
 
-  /// When the machine's clock runs; what is wrong with the text is told when
-  /// the device is opened.
+  /// The runs with the clock on. An invalid value is reported when the device
+  /// is opened.
   ClockText::Runs clockRuns() const;
 
 private:
   std::map<std::string, std::string> CommandLine;
-  std::map<std::string, std::string> Givers; ///< options by variables
+  std::map<std::string, std::string> Givers; ///< option of each variable
 };
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// The kernel sources of this program, put into it at build time.
+/// The kernel sources, embedded at build time.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -15,9 +15,9 @@ std::span<const std::string_view> kernelFiles();
 /// The text of kernels/\p File; empty if there is no such file.
 std::string_view kernelSource(std::string_view File);
 
-/// The text of the program \p File of kernels/, or of \p Folder if that is not
-/// empty, with the text of what it includes in place of each #include, so that
-/// the compiler needs no files. Its messages name the files and their lines. An
+/// The source of the program \p File in kernels/, or in \p Folder if that is
+/// not empty, with all #include directives expanded, so that the compiler needs
+/// no files. Line directives preserve file names and lines in messages. An
 /// Error if a file is missing.
 Expected<std::string> programText(const std::string &File,
                                   const std::string &Folder = "");

@@ -1,4 +1,5 @@
-/// Builds programs and runs kernels one after the other, keeping account.
+/// Builds programs and runs kernels sequentially, and records times and
+/// counters.
 #pragma once
 
 #include "device/BuildRecord.h"
@@ -23,11 +24,10 @@
 
 namespace vorion::splat {
 
-/// Programs that were built, by source and options, for launchers of one device
-/// to share.
+/// Built programs by source and options, shared by launchers of a device.
 using ProgramCache = std::map<std::pair<std::string, std::string>, cl::Program>;
 
-/// What one kernel did over all its launches in a stage.
+/// The sums over all launches of a kernel in a stage.
 struct KernelReport {
   std::string Name;
   unsigned Launches = 0;
@@ -36,58 +36,58 @@ struct KernelReport {
   std::optional<TimeReport> Time; ///< sum over the launches, if all have one
 };
 
-/// Consecutive work of one stage.
+/// The work of a stage.
 struct StageReport {
   Stage Kind;
-  double Seconds = 0; ///< host wall time, copies and compilation included
+  double Seconds = 0; ///< host wall time, including copies and compilation
   std::vector<KernelReport> Kernels;
   unsigned Copies = 0; ///< between host and device
   uint64_t CopiedBytes = 0;
 };
 
-/// Runs kernels to their end, one at a time. The first error sticks: what is
-/// asked for afterwards does nothing, so a pipeline is written straight down
-/// and asks \c failure() before it uses anything read back. Not thread-safe.
+/// Runs kernels synchronously. After the first error, all further calls do
+/// nothing, so that callers check \c failure() only before they use data that
+/// was read back. Not thread-safe.
 class Launcher {
 public:
-  /// \p Listener, if set, is told each stage's name as it begins.
-  /// \p Folder, if not empty: read kernel sources there rather than from the
-  /// program.
-  /// \p Shared, if set, has what need not be built again; must outlive this.
+  /// \p Listener, if set, is called with the name of each stage at its start.
+  /// \p Folder, if not empty, has the kernel sources in place of the embedded
+  /// ones. \p Shared, if set, caches built programs, and must outlive the
+  /// launcher.
   Launcher(const Device &D, std::string Folder,
            std::function<void(std::string_view)> Listener,
            ProgramCache *Shared = nullptr);
 
   const std::optional<Error> &failure() const { return Failure; }
-  /// Makes \p E the error that sticks, unless there is one already.
+  /// Sets the error to \p E, unless there is one.
   void fail(Error E) {
     if (!Failure)
       Failure = std::move(E);
   }
-  /// The compiler's messages where \c build failed.
+  /// The compiler's messages if \c build failed.
   const std::string &buildLog() const { return BuildLog; }
 
-  /// Whether the kernels that follow are profiled (Device::queue()); not at
-  /// first.
+  /// Whether subsequent kernels are profiled (Device::queue()); initially not.
   void setProfiled(bool P) { Profiled = P; }
 
-  /// What follows is accounted to a new stage. Begin one first of all.
+  /// Starts a stage, which must precede all other work.
   void beginStage(Stage Kind);
-  /// How many stages there are.
+  /// The number of stages.
   std::size_t stages() const { return Stages.size(); }
-  /// Ends the last stage and gives all of them.
+  /// Ends the last stage and returns all stages.
   std::vector<StageReport> takeStages();
 
-  /// Builds \p Spec in place of what was built of the same file.
+  /// Builds \p Spec, which replaces the program of the same file.
   void build(const ProgramSpec &Spec);
 
-  /// Whether \p Spec was built on this computer and ran, now or before.
+  /// Whether \p Spec has been built and run on this computer, in this process
+  /// or before.
   bool wasBuilt(const ProgramSpec &Spec) const;
-  /// Marks what was built as having run.
+  /// Records that the built programs have run.
   void recordBuilds() const;
 
-  /// Runs a kernel of a program that was built, and waits for it: \p Global
-  /// work-items in groups of \p Local.
+  /// Runs a kernel of a built program with \p Global work-items in groups of \p
+  /// Local, and waits for it.
   template <KernelLaunch Kernel>
   void run(const cl::NDRange &Global, const cl::NDRange &Local,
            const Kernel &Launch) {
@@ -109,20 +109,20 @@ public:
     launch(K, Launch.KernelName, Global, Local);
   }
 
-  /// What a user can make smaller where the device's memory does not suffice;
-  /// "a smaller scene or picture" until then.
+  /// Sets the remedy in messages about insufficient device memory; the default
+  /// is "a smaller scene or picture".
   void setRemedy(std::string Text) { Remedy = std::move(Text); }
   /// \p What names the buffer in errors ("Gaussians").
   cl::Buffer allocate(std::string_view What, uint64_t Bytes);
   void write(std::string_view What, const cl::Buffer &To, const void *From,
              uint64_t Bytes);
-  /// From byte \p Offset of \p From on.
+  /// Reads from byte \p Offset of \p From on.
   void read(std::string_view What, void *To, const cl::Buffer &From,
             uint64_t Bytes, uint64_t Offset = 0);
 
-  /// \name The same where the device has the words: no second copy is made
+  /// \name The same in mapped memory, without a second copy
   /// @{
-  /// \p Fill writes the first \p Words of \p To, all of them.
+  /// \p Fill must write all of the first \p Words of \p To.
   void writeInPlace(std::string_view What, const cl::Buffer &To, uint64_t Words,
                     const std::function<void(std::span<float>)> &Fill);
   /// \p Use reads the first \p Words of \p From.
@@ -131,13 +131,13 @@ public:
                    const std::function<void(std::span<const float>)> &Use);
   /// @}
 
-  /// Most bytes of buffers made with \c allocate that were there at once.
+  /// Peak size of the buffers from \c allocate.
   uint64_t mostBytes() const { return MostBytes; }
   const Device &device() const { return Dev; }
 
 private:
-  /// Sets argument \p Index of \p K, and counts it, unless \p Status is an
-  /// error, which it becomes where OpenCL refuses.
+  /// Sets argument \p Index of \p K and increments the index, unless \p Status
+  /// is an error. \p Status receives the error of OpenCL.
   /// @{
   template <typename T>
   static void set(cl::Kernel &K, cl_uint &Index, const Argument<T> &A,
@@ -154,20 +154,20 @@ private:
   /// @}
   void launch(const cl::Kernel &K, const std::string &Name,
               const cl::NDRange &Global, const cl::NDRange &Local);
-  /// Why a launch of kernel \p Name ended with \p Status; says what the
-  /// platform tells beside it.
+  /// The errors of a failed call and of a failed launch of kernel \p Name;
+  /// launchError() prints the platform's message.
   Error memoryError(std::string_view What, cl_int Status) const;
   Error launchError(const std::string &Name, cl_int Status) const;
   void account(KernelReport Report);
-  /// Maps \p Words of \p B for \p Flags while \p Use works with them.
+  /// Maps \p Words of \p B with \p Flags during \p Use.
   cl_int mapped(const cl::Buffer &B, cl_map_flags Flags, uint64_t Words,
                 const std::function<void(std::span<float>)> &Use);
-  /// Keeps what the copy of \p What has ended with; \p Way is "to" or "from".
+  /// Records the status of a copy of \p What; \p Way is "to" or "from".
   void checkCopy(std::string_view What, std::string_view Way, cl_int Status);
   void countCopy(uint64_t Bytes);
   void endStage();
   Expected<std::string> sourceOf(const ProgramSpec &Spec) const;
-  /// Of the program made of \p Source with \p Options, for the build record.
+  /// The key of the program from \p Source with \p Options in the build record.
   std::string keyOf(const std::string &Source,
                     const std::string &Options) const;
 
@@ -186,7 +186,7 @@ private:
   std::chrono::steady_clock::time_point StageStart;
   std::string Remedy = "a smaller scene or picture";
   uint64_t MostBytes = 0;
-  /// Shared with the buffers, which may outlive this.
+  /// Shared with the buffers, which may outlive the launcher.
   std::shared_ptr<std::atomic<uint64_t>> InUse =
       std::make_shared<std::atomic<uint64_t>>(0);
 };

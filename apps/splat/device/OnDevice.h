@@ -1,4 +1,4 @@
-/// What tests of kernels share: a device, or a counted reason to skip.
+/// The fixture of kernel tests: a device, or a skip that is counted.
 #pragma once
 
 #include "device/Values.h"

@@ -1,4 +1,4 @@
-/// The OpenCL C++ bindings as this program uses them, and its errors.
+/// The OpenCL C++ bindings as configured for this program, and its errors.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -13,11 +13,11 @@
 
 namespace vorion::splat {
 
-/// The OpenCL name of \p Status, or its number where it has none here.
+/// The OpenCL name of \p Status, or its number if it is unknown.
 std::string statusName(cl_int Status);
 
-/// An error of \p What ("reading the picture back"). Memory that is not there
-/// is a limit; anything else that OpenCL refuses is our bug.
+/// The error of \p What ("reading the picture back"). Insufficient memory is a
+/// limit; any other error of OpenCL is internal.
 Error clError(std::string_view What, cl_int Status);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// The stages that work on the device is accounted to.
+/// The stages of work on the device.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ enum class Stage {
 #include "device/Stages.def"
 };
 
-/// As reports have it: "sort by depth".
+/// The name in reports: "sort by depth".
 constexpr std::string_view name(Stage S) {
   constexpr std::array Names{
 #define STAGE(ID, NAME, OF_THE_FRAME) std::string_view(NAME),
@@ -21,7 +21,7 @@ constexpr std::string_view name(Stage S) {
   return Names[static_cast<std::size_t>(S)];
 }
 
-/// Whether the time of a frame, or of an iteration, has it.
+/// Whether the stage is part of the time of a frame or an iteration.
 constexpr bool isFrameStage(Stage S) {
   constexpr std::array OfTheFrame{
 #define STAGE(ID, NAME, OF_THE_FRAME) OF_THE_FRAME,

@@ -1,4 +1,4 @@
-/// What the device tells of the tiles that its rasterizers draw.
+/// The work of rasterizers for each tile, as the device reports it.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -9,11 +9,11 @@
 
 namespace vorion::splat {
 
-/// Of a tile, summed over its commands (depth parts have one each).
+/// The work of a tile, summed over its commands (one for each depth segment).
 struct TileWork {
   int X = 0, Y = 0, Width = 0, Height = 0; ///< in pixels of the picture
   uint64_t List = 0;                       ///< entries
-  uint64_t Blends = 0; ///< into a pixel, those of the pixel unit included
+  uint64_t Blends = 0; ///< into pixels, including those of the pixel unit
   uint64_t Cycles = 0; ///< of the rasterizer
   uint64_t PixelUnitCycles = 0;
   uint64_t Pixels = 0;    ///< of all commands
@@ -26,8 +26,8 @@ struct DrawnTiles {
   std::string On; ///< the machine and clock (ClockedMachine.h); or empty
 };
 
-/// Adds up what the device wrote (VORION_TILES, docs/debugging.md).
-/// Errors: a line that is none of those.
+/// Sums the records that the device wrote (VORION_TILES, docs/debugging.md).
+/// Error: a malformed line.
 Expected<DrawnTiles> readTileWork(const std::string &File);
 
 } // namespace vorion::splat

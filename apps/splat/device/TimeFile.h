@@ -1,5 +1,4 @@
-/// Files that say how long something took on the machine, and what two of them
-/// differ in.
+/// Files with simulated times, and their comparison.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -12,57 +11,55 @@
 
 namespace vorion::splat {
 
-/// A figure of a file. Figures of one group stand together: "stages", "cores".
+/// A figure of a file, and its group: "stages", "cores".
 struct TimeFigure {
   std::string Group, Name;
   double Value = 0;
 };
 
-/// What a file tells of time: of a frame or a sequence that `splat render
-/// --time --json` wrote, or of all runs of `vorion-sim --time --stats`.
+/// The times in a file: of a frame or a sequence from `splat render --time
+/// --json`, or of all runs from `vorion-sim --time --stats`.
 struct TimeFile {
   std::string Path;
-  /// What has to be the same where two files are compared, by what it is
-  /// called in messages: "the machine", "the view". Objects are compared by
-  /// their members.
+  /// The values that must be equal in compared files, by their names in
+  /// messages: "the machine", "the view". Objects are compared by member.
   nlohmann::json Machine, Work;
   unsigned ClockVersion = 0;
-  /// Of what machine and clock the times are, for people.
+  /// The machine and clock of the times, as text.
   std::string On;
-  double Milliseconds =
-      0; ///< launches and copies included, where they are told
-  /// Cycles, then cycles by stage and kernel or by run, then what each kind of
-  /// unit counted, summed over its units.
+  double Milliseconds = 0; ///< including launches and copies, if reported
+  /// Cycles, then cycles by stage and kernel or by run, then the counts of each
+  /// kind of unit, summed over its units.
   std::vector<TimeFigure> Figures;
 };
 
-/// Errors: no such file, no JSON, no time in it; a run that was not done.
+/// Errors: no such file, no JSON, no times, an incomplete run.
 Expected<TimeFile> readTimeFile(const std::string &Path);
 
-/// Whether the times of \p B may be held against those of \p A; an error names
-/// the first thing in which they differ. Clocks of different versions never
-/// compare. Other machines and other work do if \p Across says so.
+/// Checks whether the times of \p B and \p A are comparable; the error names
+/// the first difference. Clocks of different versions are never comparable.
+/// With \p Across, different machines and workloads are.
 Expected<Success> checkComparable(const TimeFile &A, const TimeFile &B,
                                   bool Across);
 
-/// A figure of two files; one of them may not have it.
+/// A figure in two files; it may be missing in one.
 struct TimeChange {
   std::string Group, Name;
   std::optional<double> A, B;
 
-  /// From A to B in per cent; nothing where one is missing or A is 0.
+  /// Change from A to B in per cent; empty if one is missing or A is 0.
   std::optional<double> percent() const;
 };
 
 /// All figures of both files in their order, the time in milliseconds first.
 std::vector<TimeChange> changesOf(const TimeFile &A, const TimeFile &B);
 
-/// A line that names the machine and the clock of both, or a line for each
-/// where they differ.
+/// One line with the machine and clock of both, or one line for each if they
+/// differ.
 std::string machinesText(const TimeFile &A, const TimeFile &B);
 
 /// The rows whose values differ, under the names of their groups. The first
-/// two, the time and the cycles, are always there.
+/// two, time and cycles, are always included.
 std::string toText(const std::vector<TimeChange> &Changes);
 
 } // namespace vorion::splat

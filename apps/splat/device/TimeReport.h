@@ -1,4 +1,4 @@
-/// How long a kernel took on the machine, and why: what the device reports
+/// The simulated time of a kernel with its breakdown, as the device reports it
 /// (CL_EVENT_TIME_REPORT_VORION, docs/model.md).
 #pragma once
 
@@ -30,38 +30,38 @@ template <typename Count> struct UnitCounts {
   }
 };
 
-/// What launches and copies cost beside a kernel's run.
+/// The cost of launches and copies.
 struct HostTiming {
   unsigned LaunchNs = 0, CopyNs = 0;
-  unsigned CopyMbps = 0; ///< megabytes a second
+  unsigned CopyMbps = 0; ///< megabytes per second
   unsigned DramBurstBytes = 0;
 };
 
-/// Of a lane's units, um^2, by the numbers of the units (docs/isa.md).
+/// Areas of a lane's units, um^2, by the numbers of the units (docs/isa.md).
 struct LaneAreas {
   std::vector<double> Exponential, Blend;
   std::vector<double> Reciprocal; ///< of a pair of lanes
-  double Other = 0;               ///< what every lane has
+  double Other = 0;               ///< common to all lanes
 };
 
-/// Events of a unit, for other people's energy models.
+/// Events of a unit, for external energy models.
 struct Activity {
   std::string Unit, Event;
   uint64_t Count = 0;
 };
 
-/// What the times of the DRAM's commands were taken from.
+/// The source of the DRAM timing.
 struct DramTable {
-  std::string File; ///< empty for one that came with the simulator
+  std::string File; ///< empty for a built-in table
   std::string Hash;
 };
 
-/// Of one kernel, or of several one after the other.
+/// The time of one kernel, or of several consecutive kernels.
 struct TimeReport {
   uint64_t Cycles = 0;
   unsigned ClockMhz = 1;
-  unsigned ClockVersion = 0; ///< times of different versions do not compare
-  std::string Machine;       ///< its name; with changes, if it has any
+  unsigned ClockVersion = 0; ///< times of different versions are not comparable
+  std::string Machine;       ///< its name, with changes if there are any
   std::vector<std::string> MachineChanges; ///< KEY=VALUE
   DramTable TableOfDram;
   HostTiming Host;
@@ -73,24 +73,24 @@ struct TimeReport {
   UnitCounts<CacheCount> Llc;
   UnitCounts<DramCount> Dram;
   std::vector<Activity> Activities;
-  uint64_t StaleLoads = 0;   ///< that missed a write, of data caches
-  uint64_t CommandsLeft = 0; ///< that go on in the next run
+  uint64_t StaleLoads = 0;   ///< loads from data caches that missed a write
+  uint64_t CommandsLeft = 0; ///< commands that continue in the next run
   uint64_t OutOfOrder = 0;
 
-  /// What comes after this on the same machine: counts and cycles are added,
-  /// of what is left the later one counts.
+  /// Adds the report of subsequent kernels on the same machine: counts and
+  /// cycles are added; remaining commands are those of the later report.
   TimeReport &operator+=(const TimeReport &Later);
 };
 
-/// Adds \p Later, where there is one, to \p Sum, which begins as nothing.
+/// Adds \p Later, if it is set, to \p Sum, which is initially empty.
 void add(std::optional<TimeReport> &Sum,
          const std::optional<TimeReport> &Later);
 
-/// Reads what the device says. Every member must be there and no other, so
-/// that nothing is lost on the way into reports.
+/// Parses a report of the device. All members must be present and no others, so
+/// that reports lose no information.
 Expected<TimeReport> parseTimeReport(std::string_view Text);
 
-/// As reports have it: what parseTimeReport() reads.
+/// The format in reports, which parseTimeReport() reads.
 nlohmann::ordered_json toJson(TimeReport R);
 
 } // namespace vorion::splat

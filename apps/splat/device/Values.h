@@ -1,4 +1,4 @@
-/// Arrays of numbers, to a device and back.
+/// Transfers arrays of numbers to a device and back.
 #pragma once
 
 #include "device/Launcher.h"
@@ -14,7 +14,7 @@ cl::Buffer upload(Launcher &L, const std::vector<T> &Values) {
   return B;
 }
 
-/// The first \p Count of \p B; anything if the launcher has failed.
+/// The first \p Count values of \p B; undefined if the launcher has failed.
 template <typename T>
 std::vector<T> download(Launcher &L, const cl::Buffer &B, std::size_t Count) {
   std::vector<T> Values(Count);

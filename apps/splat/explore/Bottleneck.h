@@ -1,4 +1,4 @@
-/// What a stage of a frame waits for.
+/// The bottleneck of a stage of a frame.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,25 +7,27 @@
 
 namespace vorion::splat {
 
-/// The reason of most cycles (docs/time-report.md, "Cycles by reason").
+/// The reason with the most cycles (docs/time-report.md, "Cycles by reason").
 struct Bottleneck {
   std::string Unit;   ///< "cores" or "rasterizers"
-  std::string Reason; ///< as the time report calls it
-  double Share = 0;   ///< of the unit's cycles that are not idle or ended
+  std::string Reason; ///< its name in the time report
+  double Share = 0;   ///< fraction of the unit's cycles that are not idle or
+                      ///< ended
 };
 
 /// Time reports of one stage, which may have run several times.
 using StageTimes = std::vector<const nlohmann::ordered_json *>;
 
-/// Of the cores; where these mostly wait for rasterizers, of the rasterizers.
+/// The bottleneck of the cores, or of the rasterizers if the cores mostly wait
+/// for these.
 Bottleneck bottleneckOf(const StageTimes &Runs);
 
-/// A stage under its roofline: how much of the most that is possible its unit
-/// did and DRAM moved, each 0 to 1. Where the first is below the second, DRAM
-/// is the lower roof.
+/// A stage in the roofline model: the rates of its unit and of DRAM as
+/// fractions of their peaks, each 0 to 1. If the first is below the second,
+/// DRAM is the lower roof.
 struct Roof {
   double Work = 0;   ///< cores: cycles with an issue; rasterizers: lane slots
-  double Memory = 0; ///< of DRAM's bandwidth
+  double Memory = 0; ///< fraction of the DRAM bandwidth
 };
 Roof roofOf(const StageTimes &Runs, const Bottleneck &Of);
 

@@ -1,4 +1,4 @@
-/// Which machines are worth having, and what their parameters are worth.
+/// Comparison of machines, and the effects of their parameters.
 #pragma once
 
 #include "explore/Space.h"
@@ -12,15 +12,15 @@
 
 namespace vorion::splat {
 
-/// How fast a machine does one kind of work, and what that takes.
+/// The rate and energy of a machine for one kind of work.
 struct Speed {
-  double Rate = 0;   ///< a second, one after the other; more is better
-  double Joules = 0; ///< of the chip, for one
+  double Rate = 0;   ///< per second, sequentially; higher is better
+  double Joules = 0; ///< of the chip, per frame or iteration
 };
 
-/// What a machine is judged by, over all of a workload.
+/// The figures of a machine over a workload, by which machines are compared.
 struct Figures {
-  /// By kind of work, in the order of AllWork: of what the workload has.
+  /// By kind of work in the workload, in the order of AllWork.
   std::array<std::optional<Speed>, AllWork.size()> Speeds;
   double Area = 0; ///< of the chip, mm2
 
@@ -38,31 +38,30 @@ struct Figures {
 std::vector<std::size_t> paretoFront(std::span<const Figures> All,
                                      bool KeepsEqual = false);
 
-/// At least \p Count places in \p All: the front, then the front of the others,
-/// and so on.
+/// At least \p Count indices in \p All: the front, then the front of the
+/// others, and so on.
 std::vector<std::size_t> bestFronts(std::span<const Figures> All,
                                     std::size_t Count);
 
-/// Spearman's rank correlation, equal values having the mean of their ranks;
-/// \p A and \p B are of the same two or more things. 0 where all of one are
-/// equal.
+/// Spearman's rank correlation of at least two pairs of values. Equal values
+/// have the mean of their ranks. 0 if all values of \p A or of \p B are equal.
 double rankCorrelation(std::span<const double> A, std::span<const double> B);
 
-/// Two values of different parameters that together are worth something else
-/// than each alone would say.
+/// An interaction: two values of different parameters whose joint effect
+/// differs from the product of their single effects.
 struct Interaction {
-  std::size_t First, FirstValue;   ///< place among the parameters, and a choice
-  std::size_t Second, SecondValue; ///< that is not 0
-  double Factor; ///< of the rate, beyond the product of both effects
+  std::size_t First, FirstValue;   ///< index of the parameter, and a choice
+  std::size_t Second, SecondValue; ///< other than 0
+  double Factor; ///< of the rate, divided by the product of both effects
   double Error;  ///< standard error of the factor's logarithm
 };
 
-/// Those whose factor is further from 1 than 1 %, and so far that chance shows
-/// such a pair in no more than one study of a hundred; the strongest first. \p
-/// Rates are those of \p Machines, which were drawn at random. The effects of
-/// single values are taken out of the logarithms first; a pair is told by the
-/// four groups of machines that have one, the other, both or none of its
-/// values, of eight machines at least.
+/// The interactions whose factor differs from 1 by more than 1 %, at a
+/// significance level at which chance shows one in at most one of a hundred
+/// studies; the strongest first. \p Rates are those of the random \p Machines.
+/// First, the effects of single values are removed from the logarithms. A pair
+/// is then estimated from the four groups of machines with one, the other, both
+/// or none of its values, each of at least eight machines.
 std::vector<Interaction> interactions(const Space &S,
                                       std::span<const Choices> Machines,
                                       std::span<const double> Rates);

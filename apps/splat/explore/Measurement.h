@@ -1,4 +1,5 @@
-/// A machine at a task: one run of `splat render` or `splat train`.
+/// The measurement of a task on a machine: one run of `splat render` or `splat
+/// train`.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -12,38 +13,38 @@
 
 namespace vorion::splat {
 
-/// What a machine is, for one run.
+/// A machine of a run.
 struct TriedMachine {
-  std::string Name;                   ///< "base", or what differs
-  std::string Settings;               ///< as --set takes them
-  std::vector<std::string> Arguments; ///< of the run
+  std::string Name;                   ///< "base", or its changes
+  std::string Settings;               ///< in the syntax of --set
+  std::vector<std::string> Arguments; ///< additional arguments
 };
 
-/// What all runs have in common.
+/// The common parameters of all runs.
 struct RunSetup {
   DeviceOptions Base;
   std::string Technology;      ///< a file; empty for the default
-  std::optional<double> Volts; ///< of all machines
+  std::optional<double> Volts; ///< voltage of all machines
 };
 
-/// \p Base with \p Settings, as --set takes them.
+/// \p Base with \p Settings in the syntax of --set.
 DeviceOptions changed(DeviceOptions Base, const std::string &Settings);
 
-/// Runs \p What of \p Of on \p M. Files of the run have names that begin with
-/// \p Files. A machine that cannot be, by the simulator's words, is a
-/// measurement, too; that the base cannot is an Error.
+/// Runs the task \p What of the part \p Of on \p M. \p Files is the prefix of
+/// the run's files. A machine that the simulator rejects is a measurement, too,
+/// with the message; if it is the base, it is an Error.
 Expected<nlohmann::ordered_json> measureTask(const RunSetup &Setup,
                                              const Part &Of, const Task &What,
                                              const TriedMachine &M,
                                              const std::string &Files);
 
-/// Whether \p J has what measureTask() gives.
+/// Whether \p J is a result of measureTask().
 bool isMeasurement(const nlohmann::ordered_json &J);
 
-/// What a measurement's time is called: "frame_ms".
+/// The key of a measurement's time: "frame_ms".
 const char *timeKey(Work W);
 
-/// A measurement in a line.
+/// A one-line summary of a measurement.
 std::string described(const nlohmann::ordered_json &Measured);
 
 } // namespace vorion::splat

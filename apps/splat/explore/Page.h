@@ -10,17 +10,19 @@
 
 namespace vorion::splat {
 
-/// page.html with its script; @DATA@ stands where the results go.
+/// page.html with its script; @DATA@ is the placeholder of the results.
 std::string_view explorePage();
 
-/// All that a study found.
+/// The results of a study.
 struct Findings {
-  std::vector<Measured> Small; ///< all machines, unless they were judged whole
-  /// The base first. Machines that cannot be on small views are not tried.
+  std::vector<Measured> Small; ///< all machines, unless all were measured at
+                               ///< full size
+  /// The base first. Machines that were rejected on small views are skipped.
   std::vector<Measured> Whole;
-  /// Each change of the base alone: of Whole, or of Small if it cannot be.
+  /// Each single change of the base: from Whole, or from Small if it was
+  /// rejected.
   std::vector<Measured> Alone;
-  /// Of Whole: machines drawn at random, by which both sizes are compared.
+  /// Indices in Whole of the random machines by which both sizes are compared.
   std::vector<std::size_t> Checked;
   /// By kind of work, in the order of AllWork.
   std::array<std::vector<Interaction>, AllWork.size()> Pairs;
@@ -29,7 +31,7 @@ struct Findings {
 /// The file explore.json, without its head.
 nlohmann::ordered_json resultsOf(const ExplorePlan &P, const Findings &F);
 
-/// The page of these; \p Made: lines for the foot.
+/// The page of the results; \p Made: lines of the footer.
 std::string explorePageOf(const nlohmann::ordered_json &Results,
                           const std::vector<std::string> &Made);
 

@@ -1,4 +1,4 @@
-/// The machines that `splat explore` tries: what may differ from one of them.
+/// The design space of `splat explore`.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -11,16 +11,17 @@
 
 namespace vorion::splat {
 
-/// Whether \p Text may be the name of a parameter, a value or a part of a
-/// workload, which stand in tables and on pages.
+/// Whether \p Text is a valid name of a parameter, a value or a part of a
+/// workload, for tables and pages.
 bool isPlainName(std::string_view Text);
 inline constexpr const char *PlainName =
     "a name of letters, digits, '-', '_' and '.'";
 
-/// A value that a parameter may have in place of the base machine's.
+/// An alternative to the base machine's value of a parameter.
 struct Alternative {
   std::string Name;
-  std::string Settings;               ///< as --set takes them; empty for none
+  std::string Settings;               ///< in the syntax of --set; empty for
+                                      ///< none
   std::vector<std::string> Arguments; ///< of `splat render`
 };
 
@@ -31,35 +32,34 @@ struct Parameter {
 
 using Space = std::vector<Parameter>;
 
-/// Reads the JSON \p Text of \p Where (docs/explore.md, "The space").
+/// Parses the JSON \p Text of \p Where (docs/explore.md, "The space").
 Expected<Space> parseSpace(std::string_view Text, const std::string &Where);
 
-/// The same of the file \p File.
+/// The same for the file \p File.
 Expected<Space> readSpace(const std::string &File);
 
-/// That of --print-space.
+/// The space of --print-space.
 std::string_view defaultSpace();
 
-/// A machine of a space: for each parameter 0 if it is as the base machine has
-/// it, else the place of the alternative and 1.
+/// A machine of a space: for each parameter 0 for the value of the base
+/// machine, otherwise the index of the alternative plus 1.
 using Choices = std::vector<std::size_t>;
 
 /// "base", or "core=forwarding,lanes=8".
 std::string nameOf(const Space &S, const Choices &C);
-/// As --set takes them.
+/// The settings in the syntax of --set.
 std::string settingsOf(const Space &S, const Choices &C);
-/// Of `splat render`.
+/// The arguments of `splat render`.
 std::vector<std::string> argumentsOf(const Space &S, const Choices &C);
 
-/// \p C as work sees it that takes no other options than \p Known: an
-/// alternative of another option is as if the base had it.
+/// \p C for work with the options \p Known: alternatives of other options are
+/// replaced by the base.
 Choices seenBy(const std::set<std::string> &Known, const Space &S, Choices C);
 
-/// The base machine, then every other value of each parameter alone, then
-/// machines drawn at random, each value of a parameter as likely as another,
-/// until they are \p Count or the space has no more: the same ones for the same
-/// \p Seed, on every host. \p Singles gets how many of them the first two kinds
-/// are.
+/// The base machine, all single changes, and random machines with uniformly
+/// distributed values, up to \p Count machines or all of the space. The result
+/// depends only on the space and \p Seed. \p Singles receives the number of
+/// machines before the random ones.
 std::vector<Choices> machinesOf(const Space &S, std::size_t Count,
                                 uint64_t Seed, std::size_t &Singles);
 

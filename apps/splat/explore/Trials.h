@@ -1,4 +1,4 @@
-/// Measuring machines: each at each task, kept as a file.
+/// Measurement of machines on tasks.
 #pragma once
 
 #include "explore/Judge.h"
@@ -16,64 +16,64 @@
 
 namespace vorion::splat {
 
-/// What is measured, and where it is kept.
+/// The parameters of a study.
 struct ExplorePlan {
   Workload Does;
   std::string Folder;
   RunSetup Setup;
   Space Parameters;
-  /// By kind of work, in the order of AllWork: the options that say how it is
-  /// computed. Another option of a space does not change that work.
+  /// By kind of work, in the order of AllWork: the options that affect it.
+  /// Other options of a space do not change that work.
   std::array<std::set<std::string>, AllWork.size()> Options;
-  Provenance From; ///< what all trials are made from
+  Provenance From; ///< common provenance of all trials
 };
 
-/// A machine at a task.
+/// A task on a machine.
 struct Trial {
-  Choices Machine; ///< as the task sees it: Space.h, seenBy()
+  Choices Machine; ///< the choices that affect the task: Space.h, seenBy()
   const Task *What;
 
-  /// "base@front", "6f3a91c0@front@small": what the machine is called is a hash
-  /// of its settings, so that a space may change around it.
+  /// "base@front", "6f3a91c0@front@small": a machine's name is a hash of its
+  /// settings, so that it does not depend on the rest of the space.
   std::string name(const Space &S) const;
 };
 
-/// All of \p Machines at each of \p Of. Machines that a task cannot tell
-/// apart have one trial.
+/// All tasks \p Of on all \p Machines. Machines that are equal for a task share
+/// one trial.
 std::vector<Trial> trialsOf(const ExplorePlan &P, const std::vector<Task> &Of,
                             const std::vector<Choices> &Machines);
 
-/// \p Trials as points of a study. They read \p P while they are measured. A
-/// machine that cannot be, by the simulator's words, is a measurement, too;
-/// that the base cannot is an Error.
+/// \p Trials as points of a study. \p P must outlive their measurement. A
+/// machine that the simulator rejects is a measurement, too; if it is the base,
+/// it is an Error.
 std::vector<StudyPoint> studyPoints(const ExplorePlan &P,
                                     const std::vector<Trial> &Trials);
 
-/// The measurements that \p P's folder has; \p Log is told of each file that
-/// is not used.
+/// The stored measurements in \p P's folder; \p Log is called for each rejected
+/// file.
 PointStore storeOf(const ExplorePlan &P,
                    std::function<void(std::string_view)> Log);
 
-/// A part of a workload on a machine.
+/// The results of a part of a workload on a machine.
 struct MeasuredPart {
   Speed Is;
-  /// Of the time and the energy of all parts of its kind of work.
+  /// Fractions of the time and energy of all parts with its kind of work.
   double TimeShare = 0, EnergyShare = 0;
 };
 
-/// A machine over all tasks of a size.
+/// The results of a machine over all tasks of a size.
 struct Measured {
   Choices Machine;
-  std::string Refused; ///< why it cannot be; else empty
+  std::string Refused; ///< the reason why it is impossible; otherwise empty
   Figures Is;
   std::vector<MeasuredPart> Parts;
-  /// By task, as they are kept.
+  /// Stored measurements by task.
   std::vector<nlohmann::ordered_json> Tasks;
 };
 
-/// \p Machine at all of \p Of, which are measured. Of each kind of work,
-/// the rate is the sum of the weights over the sum of the weighted times, and
-/// the energy is the weighted mean.
+/// The results of \p Machine over the tasks \p Of, which must be measured. For
+/// each kind of work, the rate is the sum of the weights divided by the sum of
+/// the weighted times, and the energy is the weighted mean.
 Expected<Measured> measured(const ExplorePlan &P, PointStore &Kept,
                             const std::vector<Task> &Of,
                             const Choices &Machine);

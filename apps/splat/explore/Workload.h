@@ -1,4 +1,4 @@
-/// What machines are tried on: scenes with their views, and states of training.
+/// The workload of a study: scenes with their views, and training states.
 #pragma once
 
 #include "study/Provenance.h"
@@ -11,7 +11,7 @@
 
 namespace vorion::splat {
 
-/// What a machine does. Its speed at the one is no speed at the other.
+/// The kinds of work of a machine, whose rates are not comparable.
 enum class Work { Frames, Iterations };
 inline constexpr std::array AllWork{Work::Frames, Work::Iterations};
 
@@ -19,36 +19,36 @@ constexpr std::string_view name(Work W) {
   return W == Work::Frames ? "frames" : "iterations";
 }
 
-/// A scene with its views, or a state of training.
+/// A scene with its views, or a training state.
 struct Part {
-  std::string Name; ///< empty for the scene of a command line
+  std::string Name; ///< empty for the scene on the command line
   Work Does = Work::Frames;
-  double Weight = 1; ///< of each of its frames, or of an iteration
-  Provenance From;   ///< what its tasks are made from
+  double Weight = 1; ///< of each frame or iteration
+  Provenance From;   ///< common provenance of its tasks
 };
 
-/// What one run of this program measures: a frame, or some iterations.
+/// The work of one run: a frame, or some iterations.
 struct Task {
-  std::size_t Of = 0; ///< place of its part
+  std::size_t Of = 0; ///< index of its part
   std::string Name;   ///< "front", "guitar@front@small" or "chair"
   std::string View;   ///< "front"; empty for iterations
   int Width = 0, Height = 0;
-  unsigned Iterations = 0; ///< that are timed
-  /// The subcommand of splat, what it reads and how, and what it trains; not
-  /// what it writes.
+  unsigned Iterations = 0; ///< number of timed iterations
+  /// The subcommand of splat and its arguments, except those for outputs.
   std::vector<std::string> Words;
-  Provenance From; ///< beside that of the part
+  Provenance From; ///< in addition to that of the part
 };
 
 struct Workload {
   std::vector<Part> Parts;
   std::vector<Task> Whole;
-  /// The same in a smaller size, in the same order, with "@small" behind their
-  /// names; what is small is as it is in Whole. Empty if all is.
+  /// The same tasks at a smaller size, in the same order, with "@small" after
+  /// their names. Tasks that are small in Whole are unchanged. Empty if all
+  /// are.
   std::vector<Task> Small;
 
   bool has(Work W) const;
-  /// Whether parts are told apart: those of a file have names.
+  /// Whether parts have names, which those of a file have.
   bool isNamed() const { return !Parts.front().Name.empty(); }
 };
 

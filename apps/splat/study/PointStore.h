@@ -17,7 +17,7 @@ namespace vorion::splat {
 /// A JSON file that splat wrote.
 Expected<nlohmann::ordered_json> readOwnJson(const std::string &Path);
 
-/// Makes the folders of a study below \p Folder.
+/// Creates the folders of a study below \p Folder.
 Expected<Success> makeFolders(const std::string &Folder);
 
 /// The measurements of a study. Each has a name, a file and its provenance.

@@ -1,5 +1,5 @@
-/// Children of this process: each run of a study is a process of its own, as a
-/// user's is.
+/// Child processes: each run of a study is a separate process, as if started by
+/// a user.
 #pragma once
 
 #include "device/DeviceOptions.h"
@@ -13,42 +13,43 @@
 
 namespace vorion::splat {
 
-/// What a child of this process did.
+/// The result of a child process.
 struct ProcessEnd {
   ExitCode Code = ExitCode::Ok;
-  /// Of its processors, and of those of the children that it waited for.
+  /// Processor seconds of the child and of its children that it waited for.
   double ProcessorSeconds = 0;
 };
 
 /// The last line of \p File, a log; empty if it cannot be read.
 std::string lastLine(const std::string &File);
 
-/// Runs \p Words, of which the first is a program's path, with this process's
-/// environment and \p Variables; what it prints goes to \p OutFile, what it
-/// says of errors to \p LogFile, which may be the same. An Error if it cannot
-/// be started or ends otherwise than by itself; \p GiveUp as below.
+/// Runs the command \p Words, whose first element is the path of a program,
+/// with this process's environment and \p Variables. Standard output goes to \p
+/// OutFile, standard error to \p LogFile, which may be the same. An Error if it
+/// cannot be started or is terminated by a signal; \p GiveUp as below.
 Expected<ProcessEnd>
 runProgram(std::vector<std::string> Words,
            const std::map<std::string, std::string> &Variables,
            const std::string &OutFile, const std::string &LogFile,
            const std::function<bool()> &GiveUp = {});
 
-/// Runs this program with \p Arguments; what it says goes to \p LogFile, whose
-/// last line is in the error if it fails. \p GiveUp, if set, is asked every few
-/// milliseconds whether to end it before its time, which is an error too.
+/// Runs this program with \p Arguments. Its output goes to \p LogFile, whose
+/// last line is in the error if it fails. \p GiveUp, if set, is polled every
+/// few milliseconds; if it returns true, the child is terminated, which is an
+/// error, too.
 Expected<ProcessEnd> runSplat(const std::vector<std::string> &Arguments,
                               const DeviceOptions &Machine,
                               const std::string &LogFile,
                               const std::function<bool()> &GiveUp = {});
 
-/// What a run of this program reports.
+/// The report of a run of this program.
 struct RunReport {
   nlohmann::ordered_json Report;
   double ProcessorSeconds = 0;
 };
 
-/// The same with --json: the report of the run. Its files have names that begin
-/// with \p Base; what the run prints is removed after it, unless it fails.
+/// The same with --json; returns the report of the run. \p Base is the prefix
+/// of its files. The output is deleted unless the run fails.
 Expected<RunReport> runForReport(std::vector<std::string> Arguments,
                                  const DeviceOptions &Machine,
                                  const std::string &Base);

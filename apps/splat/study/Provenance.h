@@ -1,5 +1,5 @@
-/// What measurements, and the files that they need, were made from. What is
-/// kept is used only where everything that made it is the same.
+/// The provenance of measurements and of the files that they need. A stored
+/// measurement is used only if its provenance is the same.
 #pragma once
 
 #include "capture/Capture.h"
@@ -14,37 +14,37 @@
 
 namespace vorion::splat {
 
-/// What made something: by the name of each thing that may differ ("scene",
-/// "programs"), by which people are told what does, a hash of its contents or
-/// the options as they were given. None names a file.
+/// For each input that may differ ("scene", "programs"), the name in messages
+/// and the hash of its contents, or the options on the command line. It
+/// contains no file names.
 using Provenance = std::map<std::string, std::string>;
 
-/// Of a machine: what it is, and not how its file is called.
+/// Hash of a machine's configuration, without the name of its file.
 Expected<std::string> hashMachine(const DeviceOptions &Machine);
 
-/// What every measurement is made from: the programs and the machine.
+/// The common provenance of all measurements: the programs and the machine.
 Expected<Provenance> commonProvenance(const DeviceOptions &Machine);
 
-/// Of a view: what its picture depends on, its name and number not.
+/// Hash of a view, without its name and number.
 std::string hashView(const Camera &View);
 
-/// Of all that training takes from a capture: pictures, masks, poses, first
-/// points, and which views are held out. An Error if a picture cannot be read.
+/// Hash of the inputs that training reads from a capture: pictures, masks,
+/// poses, initial points, and the selection of held-out views. An Error if a
+/// picture cannot be read.
 Expected<std::string> hashCapture(const Capture &C);
 
-/// The things in which \p Had, any JSON, is not \p Wanted: "scene and
-/// programs"; empty if it is.
+/// The names of the differences between \p Had, any JSON, and \p Wanted: "scene
+/// and programs"; empty if they are equal.
 std::string difference(const nlohmann::ordered_json &Had,
                        const Provenance &Wanted);
 
-/// The hashes of \p From in a line for the foot of a page: "fnv1a64: machine
-/// 0123456789abcdef, scene ...". Options are left out, as the command says
-/// them.
+/// The hashes of \p From as a line of a page's footer: "fnv1a64: machine
+/// 0123456789abcdef, scene ...", without options, which the command contains.
 std::string hashLine(const Provenance &From);
 
-/// Makes \p Files, by \p Make, unless they are there as an earlier call with
-/// the same \p From left them. What they were made from is beside the first
-/// one, with the ending .origin.
+/// Creates \p Files by \p Make, unless they are unchanged since an earlier call
+/// with the same \p From. The provenance is stored next to the first file, with
+/// the extension .origin.
 Expected<Success> makeOnce(const std::vector<std::string> &Files,
                            const Provenance &From,
                            const std::function<Expected<Success>()> &Make);

@@ -1,6 +1,6 @@
-/// What the fuzzers of kept files call, and a test replays: whatever a sweep's
-/// folder or a checkpoint holds, it is used whole, or not and with one line
-/// that says why; otherwise the program aborts.
+/// Targets of the fuzzers of stored files, also replayed by a test. Any content
+/// of a sweep's folder or a checkpoint must be used completely, or rejected
+/// with a message of one line; otherwise the program aborts.
 #pragma once
 
 #include "io/Bytes.h"
@@ -12,18 +12,18 @@
 
 namespace vorion::splat::fuzz {
 
-/// A checkpoint's file, and the same bytes behind a first line whose checksum
-/// is right. Gives how many of the two were read.
+/// Reads a checkpoint, and the same bytes after a first line with the correct
+/// checksum. Returns how many of the two were accepted.
 std::size_t readCheckpoint(Bytes Input);
 
-/// The files of a sweep's folder, as bundled() has them: points of a small
-/// sweep, its reference, and what that was made from. Gives how many of its
-/// points are used.
+/// Reads the files of a sweep's folder in the format of bundled(): points of a
+/// small sweep, its reference, and the provenance of the reference. Returns the
+/// number of accepted points.
 std::size_t readSweep(Bytes Input);
-/// The same of a training sweep, points alone.
+/// The same for the points of a training sweep.
 std::size_t readTrainSweep(Bytes Input);
 
-/// Small whole inputs, by name.
+/// Small valid inputs, by name.
 using Seeds = std::vector<std::pair<std::string, std::string>>;
 Seeds checkpointSeeds();
 Seeds sweepSeeds();
