@@ -10,28 +10,28 @@ namespace vorion::splat {
 
 struct CameraModel {
   const LensModel *Model = &lenses::Pinhole;
-  /// In the order of the model's record; the rest is 0.
+  /// In the order of the model's record, padded with 0.
   LensCoefficients K{};
-  /// Where the camera moves meanwhile.
+  /// If the camera moves during the exposure.
   std::optional<RollingShutter> Shutter = std::nullopt;
 
   bool isPinhole() const { return Model->isPinhole(); }
-  /// Where the lens shows what a pinhole shows at (\p X, \p Y). Of what is in
-  /// front of the camera.
+  /// Maps the position (\p X, \p Y) of a pinhole, in front of the camera,
+  /// through the lens.
   LensPlace distorted(double X, double Y) const {
     return Model->Distorted(*Model, K, X, Y);
   }
-  /// Up to where \c distorted() is one to one: a radius before distortion.
+  /// The radius before distortion up to which \c distorted() is one-to-one.
   double reach() const { return Model->Reach(limit()); }
-  /// Up to where the model is one to one.
+  /// The limit up to which the model is one-to-one.
   double limit() const { return Model->Limit(K); }
-  /// The radius before distortion that the radial part takes to \p Distorted:
-  /// at most \c limit() and 1000.
+  /// The inverse of the radial part at \p Distorted, at most \c limit() and
+  /// 1000.
   double undistorted(double Distorted) const {
     return undistortedRadius(*Model, K, Distorted);
   }
-  /// The direction whose place is (\p X, \p Y); nothing if the lens shows
-  /// nothing there.
+  /// The direction of the position (\p X, \p Y); empty if it is outside the
+  /// projection.
   std::optional<Direction> direction(double X, double Y) const {
     return Model->Ray(K, X, Y);
   }
@@ -39,7 +39,7 @@ struct CameraModel {
   bool operator==(const CameraModel &) const = default;
 };
 
-/// A distortion that bends nothing is a pinhole.
+/// A distortion whose coefficients are all 0 is a pinhole.
 CameraModel simplified(const CameraModel &M);
 
 } // namespace vorion::splat

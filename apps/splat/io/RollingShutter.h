@@ -10,13 +10,15 @@ namespace vorion::splat {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
-/// Pixel (x, y) of a picture W x H is exposed at the moment
-/// Start + Across x / W + Down y / H. At 1/2 the camera has its pose; between 0
-/// and 1 it moves by Motion and turns by Turn, both evenly.
+/// Pixel (x, y) of a picture W x H is exposed at the time Start + Across x / W
+/// + Down y / H. At time 1/2 the camera has its pose; from 0 to 1 it is
+/// translated by Motion and rotated by Turn, both uniformly.
 struct RollingShutter {
   double Start = 0, Across = 0, Down = 1;
-  std::array<double, 3> Motion{}; ///< world units along the pose's own axes
-  std::array<double, 3> Turn{};   ///< axis times angle, by the pose's own axes
+  std::array<double, 3> Motion{}; ///< world units, in the coordinates of the
+                                  ///< pose
+  std::array<double, 3> Turn{};   ///< axis times angle, in the coordinates of
+                                  ///< the pose
 
   bool operator==(const RollingShutter &) const = default;
 };
@@ -31,15 +33,16 @@ struct CameraPlace {
   Matrix3 Rotation{};
 };
 
-/// A camera on its way from one place to another.
+/// A camera that moves from one pose to another.
 struct CameraWay {
   CameraPlace Middle;
-  RollingShutter Shutter; ///< Motion and Turn alone
+  RollingShutter Shutter; ///< only Motion and Turn
 };
-/// An Error, at no place, where the turn is larger than MostShutterTurn.
+/// An Error without location if the rotation exceeds MostShutterTurn.
 Expected<CameraWay> wayBetween(const CameraPlace &From, const CameraPlace &To);
 
-/// Where a camera with \p Shutter, whose pose is \p Middle, is at \p Moment.
+/// The pose at \p Moment of a camera with \p Shutter whose pose at time 1/2 is
+/// \p Middle.
 CameraPlace placeAt(const CameraPlace &Middle, const RollingShutter &Shutter,
                     double Moment);
 

@@ -1,6 +1,6 @@
-/// A camera model: how a camera maps directions to its picture
-/// (docs/cameras.md). Each has one record, in a file of its own here, and one
-/// file of kernels/; everything else asks the record
+/// A camera model: the projection of directions to the picture
+/// (docs/cameras.md). Each model has one record, in its own file in this
+/// folder, and one file of kernels/. All other code uses the record
 /// (docs/adding-a-camera-model.md).
 #pragma once
 
@@ -12,44 +12,46 @@
 
 namespace vorion::splat {
 
-/// What a model has coefficients for, in the order of its record; the rest is
-/// 0. As many as OpenCV's distortion has.
+/// The coefficients of a model, in the order of its record, padded with 0. The
+/// size is that of OpenCV's distortion.
 using LensCoefficients = std::array<double, 13>;
-/// The largest that is drawn: no product of a few of them is beyond fp32.
+/// The largest supported magnitude: products of a few coefficients do not
+/// overflow in fp32.
 inline constexpr double MostLensCoefficient = 1e6;
 
-/// A place on the picture in units of the focal lengths, from the principal
-/// point.
+/// A position in the picture relative to the principal point, in units of the
+/// focal lengths.
 using LensPlace = std::array<double, 2>;
-/// Of length 1, in the camera's axes: x right, y down, z forward.
+/// A unit vector in camera coordinates: x right, y down, z forward.
 using Direction = std::array<double, 3>;
 
-/// What Gaussians are ordered by and the near plane is compared with.
+/// The depth for sorting Gaussians and for the near plane.
 enum class DepthRule {
   AlongAxis, ///< z
-  Distance   ///< from the camera, which then sees what is beside and behind it
+  Distance   ///< from the camera, for fields of view above 180 degrees
 };
 
-/// What a place is measured from where fp32 has too few digits: a ray, as the
-/// kernels' `crop_mean` takes it (splat_crop of kernels/layout.h).
+/// The ray to which positions are relative if fp32 is not precise enough, for
+/// `crop_mean` of the kernels (splat_crop of kernels/layout.h).
 struct RayFrame {
-  /// Two vectors in the camera's axes: how far a point is beside the ray.
+  /// Two vectors in camera coordinates, whose products with a point are its
+  /// distances from the ray.
   std::array<std::array<double, 3>, 2> Beside{};
-  /// What the model's kernels have to know of the ray.
+  /// Parameters of the ray for the model's kernels.
   std::array<double, 5> Ray{};
-  /// Of parallel rays: how far this one passes beside the axis; else 0.
+  /// Distance of a parallel ray from the axis; otherwise 0.
   LensPlace Start{};
 };
 
-/// One of COLMAP's names for a model, as its files have it.
+/// A camera model of COLMAP, as stored in its files.
 struct ColmapLens {
   int Id;
   std::string_view Name;
-  /// Focal lengths, which the parameters begin with: 2, or 1 for both axes. 0:
-  /// the parameters are the picture's width and height.
+  /// Number of focal lengths at the start of the parameters: 2, or 1 for both
+  /// axes. 0: the parameters are the picture's width and height.
   std::size_t FocalLengths;
-  /// Coefficients behind the principal point, those that the record begins
-  /// with.
+  /// Number of coefficients after the principal point, which are the first of
+  /// the record.
   std::size_t Coefficients;
 
   std::size_t parameters() const {
@@ -59,7 +61,7 @@ struct ColmapLens {
 
 struct LensModel;
 
-/// \name What a record has where its model says nothing else
+/// \name Defaults of records
 /// @{
 double noLimit(const LensCoefficients &K);
 double sameRadius(const LensCoefficients &K, double Radius);
@@ -80,45 +82,44 @@ inline constexpr std::array<std::string_view, 6> OpenCvRadialKeys{
 // which -Wmissing-designated-field-initializers allows where a member says so.
 // NOLINTBEGIN(readability-redundant-member-init)
 struct LensModel {
-  /// As reports and cameras.json have it: COLMAP's where it has one.
+  /// The name in reports and cameras.json: that of COLMAP if it has the model.
   std::string_view Name = {};
 
   /// \name In files
   /// @{
-  /// What files call it, in any case of letters: COLMAP's, nerfstudio's and
-  /// gsplat's names; those that messages list, and others.
+  /// Names in files of COLMAP, nerfstudio and gsplat, not case-sensitive: those
+  /// that messages list, and others.
   std::span<const std::string_view> Names = {}, OtherNames = {};
   /// A key of files that is true for this model; empty if there is none.
   std::string_view Flag = {};
-  /// What nerfstudio's viewer calls it; empty if it does not know it.
+  /// The name in nerfstudio's viewer; empty if it lacks the model.
   std::string_view ViewerName = {};
   std::span<const ColmapLens> Colmap = {};
   /// Names of the coefficients.
   std::span<const std::string_view> Keys = {};
-  /// Those of the lists dist_coeffs and radial_coeffs.
+  /// Names of the elements of dist_coeffs and radial_coeffs.
   std::span<const std::string_view> ListKeys = OpenCvKeys,
                                     RadialListKeys = OpenCvRadialKeys;
-  /// Coefficients that mean different things to different programs: as keys of
-  /// their own they need the model's own name.
+  /// Coefficients whose meaning differs between programs: as separate keys they
+  /// need the model's name.
   std::span<const std::string_view> AmbiguousKeys = {};
-  /// What nerfstudio calls k4 without that name; empty: k4.
+  /// The meaning of nerfstudio's k4 without that name; empty: k4.
   std::string_view KeyOfFourthTerm = {};
-  /// What a pinhole with coefficients is.
+  /// The model of a pinhole with coefficients.
   const LensModel *WithCoefficients = nullptr;
   /// @}
 
   /// \name Properties
   /// @{
   DepthRule Depth = DepthRule::AlongAxis;
-  /// Its rays are parallel: focal lengths are pixels a unit.
+  /// Rays are parallel, and focal lengths are pixels per unit.
   bool IsParallel = false;
-  /// It shows the full sphere at any size: it has no focal length, and the
-  /// picture's left and right sides are one line.
+  /// The picture is the full sphere at any size: there is no focal length, and
+  /// the left and right edges of the picture coincide.
   bool CoversSphere = false;
-  /// The Jacobian is held at slopes x/z and y/z around those that the picture
-  /// shows.
+  /// The Jacobian is clamped to slopes x/z and y/z around those of the picture.
   bool HoldsSlopes = false;
-  /// Without coefficients it is a pinhole: a program for it draws those, too.
+  /// Without coefficients it is a pinhole, which its programs also render.
   bool IsDistortion = false;
   /// @}
 
@@ -129,33 +130,33 @@ struct LensModel {
 
   /// \name Equations
   /// @{
-  /// Up to where the model is one to one: a radius before distortion, or an
-  /// angle from the axis.
+  /// The limit up to which the model is one-to-one: a radius before distortion,
+  /// or an angle from the axis.
   double (*Limit)(const LensCoefficients &K) = noLimit;
-  /// Where the radial part shows what a pinhole shows at \p Radius.
+  /// The radial part of the distortion: maps a pinhole's \p Radius.
   double (*Radius)(const LensCoefficients &K, double Radius) = sameRadius;
-  /// Where the lens shows what a pinhole shows at (\p X, \p Y).
+  /// The distortion: maps a pinhole's position (\p X, \p Y).
   LensPlace (*Distorted)(const LensModel &Model, const LensCoefficients &K,
                          double X, double Y) = distortedRadially;
-  /// Up to which radius a pinhole shows what this lens shows.
+  /// The radius of a pinhole's picture that covers this lens.
   double (*Reach)(double Limit) = asFarAsTheLimit;
-  /// What is seen at (\p X, \p Y); nothing where the lens shows nothing.
+  /// The direction of the position (\p X, \p Y); empty if it is outside the
+  /// projection.
   std::optional<Direction> (*Ray)(const LensCoefficients &K, double X,
                                   double Y) = rayThroughPlane;
-  /// That of \p Ray, which is seen at (\p X, \p Y).
+  /// The frame of \p Ray, whose position is (\p X, \p Y).
   RayFrame (*Frame)(const Direction &Ray, double X, double Y) = frameInPlane;
-  /// `limit` of splat_lens (kernels/layout.h) for a picture so high.
+  /// `limit` of splat_lens (kernels/layout.h) for a picture of this height.
   double (*KernelLimit)(double Limit, int Height) = squaredLimit;
   /// @}
 
-  /// A program for it needs nothing beside the view.
+  /// Its programs need no data besides the view.
   bool isPinhole() const { return Macro.empty(); }
   bool byDistance() const { return Depth == DepthRule::Distance; }
 };
 // NOLINTEND(readability-redundant-member-init)
 
-/// The radius before distortion that the radial part takes to \p Distorted: at
-/// most the limit and 1000.
+/// The inverse of the radial part at \p Distorted, at most the limit and 1000.
 double undistortedRadius(const LensModel &Model, const LensCoefficients &K,
                          double Distorted);
 

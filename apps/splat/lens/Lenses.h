@@ -1,5 +1,5 @@
-/// All camera models. What names a model, which tests alone do outside this
-/// folder, includes Models.h.
+/// All camera models. Code that names a model includes Models.h; outside this
+/// folder, only tests do.
 #pragma once
 
 #include "lens/LensModel.h"
@@ -10,19 +10,19 @@ namespace vorion::splat {
 
 namespace lenses {
 
-/// What a camera is of which nothing else is said.
+/// The default camera model.
 extern const LensModel Pinhole;
 
 std::span<const LensModel *const> all();
 
 } // namespace lenses
 
-/// The model that files call \p Name, in any case of letters, or null.
+/// The model with the name \p Name in files (not case-sensitive), or null.
 const LensModel *lensModelNamed(std::string_view Name);
 /// Names of models, for messages: "A, B or C".
 std::string knownLensModels();
 
-/// \name The same by the names of nerfstudio's viewer
+/// \name The same for names of nerfstudio's viewer
 /// @{
 const LensModel *lensModelOfViewer(std::string_view Name);
 std::string knownViewerModels();
