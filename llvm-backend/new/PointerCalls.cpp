@@ -18,10 +18,10 @@ using namespace llvm;
 /// The value of \p Word in the first active lane.
 static Value *ofFirstLane(IRBuilder<> &Builder, Value *Word) {
   Module &M = *Builder.GetInsertBlock()->getModule();
-  auto call = [&](StringRef Name, ArrayRef<Value *> Operands) {
+  const auto Call = [&](StringRef Name, ArrayRef<Value *> Operands) {
     return Builder.CreateCall(vorion::declareIntrinsic(M, Name), Operands);
   };
-  Value *Active = call("vx_vote_ballot", Builder.getInt32(1));
+  Value *Active = Call("vx_vote_ballot", Builder.getInt32(1));
   Value *First = Builder.CreateAnd(Active, Builder.CreateNeg(Active));
   // No instruction counts zeros; a float holds a power of two exactly.
   Value *Exponent = Builder.CreateLShr(
@@ -31,7 +31,7 @@ static Value *ofFirstLane(IRBuilder<> &Builder, Value *Word) {
   Value *Lane = Builder.CreateSub(Exponent, Builder.getInt32(127));
   // Bits 11:6 are the last lane of all from which the shuffle may read.
   Value *From = Builder.CreateOr(Lane, Builder.getInt32(63 << 6));
-  return call("vx_uniform", call("vx_shfl_idx", {Word, From}));
+  return Call("vx_uniform", Call("vx_shfl_idx", {Word, From}));
 }
 
 static void callInTurn(CallInst &Call) {
