@@ -118,6 +118,14 @@ void Launcher::recordBuilds() const {
     Record.add(Key);
 }
 
+std::unique_ptr<CompileNotice>
+Launcher::noticeOf(const std::string &What,
+                   std::function<bool()> IsCompiling) const {
+  return Progress
+             ? std::make_unique<CompileNotice>(What, std::move(IsCompiling))
+             : nullptr;
+}
+
 void Launcher::build(const ProgramSpec &Spec) {
   if (Failure)
     return;
@@ -136,8 +144,10 @@ void Launcher::build(const ProgramSpec &Spec) {
   }
   cl_int Status = CL_SUCCESS;
   cl::Program Program(Dev.context(), *Source, false, &Status);
-  if (Status == CL_SUCCESS)
+  if (Status == CL_SUCCESS) {
+    const auto Notice = noticeOf(Spec.name(), [] { return true; });
     Status = Program.build(Dev.handle(), Options.c_str());
+  }
   if (Status != CL_SUCCESS) {
     if (Status == CL_OUT_OF_HOST_MEMORY) {
       Failure = clError("compiling kernel program " + Spec.name(), Status);
@@ -178,7 +188,15 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
     Failure = memoryError("starting kernel " + Name, Status);
     return;
   }
-  Status = Done.wait();
+  {
+    // A kernel is compiled when it is started first; then it runs.
+    std::unique_ptr<CompileNotice> Notice;
+    if (Started.insert(Name).second)
+      Notice = noticeOf(Name, [&Done] {
+        return Done.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() > CL_RUNNING;
+      });
+    Status = Done.wait();
+  }
   const auto Outcome = Done.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
   if (Status != CL_SUCCESS || Outcome < 0) {
     Failure = launchError(Name, Outcome < 0 ? Outcome : Status);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/BuildRecord.h"
+#include "device/CompileNotice.h"
 #include "device/Device.h"
 #include "device/Launch.h"
 #include "device/Program.h"
@@ -15,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -136,6 +138,10 @@ public:
   const Device &device() const { return Dev; }
 
 private:
+  /// Null if nobody is told of progress.
+  std::unique_ptr<CompileNotice>
+  noticeOf(const std::string &What, std::function<bool()> IsCompiling) const;
+
   /// Sets argument \p Index of \p K and increments the index, unless \p Status
   /// is an error. \p Status receives the error of OpenCL.
   /// @{
@@ -174,6 +180,7 @@ private:
   const Device &Dev;
   std::string KernelFolder;
   std::function<void(std::string_view)> Progress;
+  std::set<std::string> Started; ///< kernels, by name
   ProgramCache *Shared;
   std::map<std::string, cl::Program> Programs;
   BuildRecord Record;

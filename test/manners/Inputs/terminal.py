@@ -5,6 +5,7 @@ import fcntl
 import os
 import pty
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -68,6 +69,19 @@ for name, variables, on_terminal in KINDS:
     beyond = ", one too many" if b"view 4 of 3" in text else ""
     print(f"views: {name} {kind(text)}, {left}{beyond}")
 print("quiet:", kind(said([*render, "--quiet"], {"TERM": "xterm"}, True)))
+
+# A compiler that takes three seconds to start.
+root = os.path.join(folder, "slow")
+compiler = shutil.which("vorion-compiler")
+os.makedirs(os.path.join(root, "bin"))
+for part in ("lib", "include", "pocl"):
+    os.symlink(os.path.join(os.path.dirname(os.path.dirname(compiler)), part), os.path.join(root, part))
+with open(os.path.join(root, "bin", "vorion-compiler"), "w", encoding="utf-8") as script:
+    os.fchmod(script.fileno(), 0o755)
+    script.write(f'#!/bin/sh\nsleep 3\nexec {compiler} "$@"\n')
+slow = {"TERM": "xterm", "VORION_ROOT": root, "POCL_CACHE_DIR": os.path.join(folder, "slow-cache")}
+shown = re.search(rb"splat: compiling (\w+) \.\.\.", said([*render[:7], *render[-2:]], slow, True))
+print("compiling for long:", shown.group(1).decode() if shown else "not shown")
 
 # A line is written over in a window of any width, and is the last but for its end.
 terminal = {"TERM": "xterm"}
