@@ -133,6 +133,8 @@ def clock_reasons(records):
         if unit.Reasons:
             yield table((f"`{unit.Key}`", "group", f"a cycle in which the {unit.One}"),
                         [(f"`{r.Key}`", r.Group.Label, r.Meaning) for r in unit.Reasons])
+        if unit.Reasons and unit.Counts:
+            yield table((f"`{unit.Key}`: count", "meaning"), [(f"`{c.Key}`", c.Meaning) for c in unit.Counts])
 
 
 def page_with_reasons(page, records):

@@ -16,6 +16,14 @@
 
 namespace vorion::splat {
 
+/// Of the counts of a unit, those that are reasons of its cycles.
+template <typename Count> constexpr auto reasonsOf() {
+  std::array<Count, Reasons<Count>.size()> All{};
+  for (std::size_t N = 0; N != All.size(); ++N)
+    All[N] = static_cast<Count>(N);
+  return All;
+}
+
 /// The counts of one unit.
 template <typename Count> struct UnitCounts {
   std::array<uint64_t, CountNames<Count>.size()> Values{};

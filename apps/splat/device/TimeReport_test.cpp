@@ -46,6 +46,14 @@ TEST(TimeReport, IsWrittenAsItIsRead) {
   EXPECT_EQ(Read->Areas.Exponential[1], 20);
 }
 
+// What is no reason is never shown as a share of cycles.
+TEST(TimeReport, ReasonsAreCountsOfCyclesAlone) {
+  constexpr auto All = reasonsOf<RasterCount>();
+  EXPECT_EQ(All.front(), RasterCount::Blend);
+  EXPECT_EQ(All.back(), RasterCount::Idle);
+  EXPECT_LT(All.size(), CountNames<RasterCount>.size());
+}
+
 TEST(TimeReport, CountsAddUpAndTheMachineStays) {
   std::optional<TimeReport> Sum;
   add(Sum, std::nullopt);

@@ -88,9 +88,10 @@ double share(uint64_t Cycles, const std::vector<UnitCounts<Count>> &Units,
 /// Of the cores that wait for rasterizers, in percent.
 double rasterShare(const TimeReport &T) {
   std::vector<CoreCount> Waits;
-  for (std::size_t N = 0; N != Reasons<CoreCount>.size(); ++N)
-    if (Reasons<CoreCount>[N].Group == ReasonGroup::CoreRasterizes)
-      Waits.push_back(static_cast<CoreCount>(N));
+  for (const CoreCount Reason : reasonsOf<CoreCount>())
+    if (Reasons<CoreCount>[static_cast<std::size_t>(Reason)].Group ==
+        ReasonGroup::CoreRasterizes)
+      Waits.push_back(Reason);
   return share(T.Cycles, T.Cores, Waits);
 }
 
@@ -116,11 +117,10 @@ class Table {
 public:
   explicit Table(const TimeReport &Whole) : Whole(Whole) {
     constexpr double Least = 0.5; // percent
-    for (std::size_t N = 0; N != CountNames<CoreCount>.size(); ++N) {
-      const auto Reason = static_cast<CoreCount>(N);
+    for (const CoreCount Reason : reasonsOf<CoreCount>())
       if (share<CoreCount>(Whole.Cycles, Whole.Cores, {Reason}) >= Least)
-        Shown.push_back({CountNames<CoreCount>[N], Reason});
-    }
+        Shown.push_back(
+            {CountNames<CoreCount>[static_cast<std::size_t>(Reason)], Reason});
   }
 
   std::string head() const;

@@ -2,7 +2,11 @@
 and each reason has the cycles that the run's report gives it."""
 import collections
 import json
+import os
 import sys
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "intrinsics", "generate"))
+import clock
 
 log, stats, core = open(sys.argv[1]), json.load(open(sys.argv[2])), int(sys.argv[3])
 run = stats["runs"][0]
@@ -33,7 +37,8 @@ for line in log:
         assert kind == "L", line
 assert set(retired) == seen and not open_stages
 assert len(seen) == run["cores"][core]["warp_instructions"]
-for reason, cycles in run["time"]["cores"][core].items():
+time = run["time"]["cores"][core]
+for reason in clock.reasons("cores"):
     if reason not in ("start", "ended", "barrier"):
-        assert spent[reason] == cycles, (reason, spent[reason], cycles)
+        assert spent[reason] == time[reason], (reason, spent[reason], time[reason])
 assert spent["execute"] > 0
