@@ -39,6 +39,10 @@ struct Square : Shape {
   int area() const override { return Size * Size; }
   int Size;
 };
+struct Removed : Shape {
+  int area() const override { return -1; }
+  virtual void remove() = delete;
+};
 struct Flag {
   virtual ~Flag() { printf("~Flag\n"); }
   virtual int colours() const { return 3; }
@@ -84,6 +88,7 @@ int main() {
     Array = new Named[1]{{"array", 1}};
     delete[] Array;
     Square Automatic(2);
+    Removed Last;
   }
   printf("local %d\n", local());
   return 0;
