@@ -21,15 +21,19 @@
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/PostDominators.h"
 #include "llvm/Analysis/TargetTransformInfo.h"
+#include "llvm/IR/ConstantRange.h"
 #include "llvm/IR/Dominators.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/Instructions.h"
 #include "llvm/IR/IntrinsicInst.h"
+#include "llvm/IR/PatternMatch.h"
 #include "llvm/Support/CommandLine.h"
+#include "llvm/Transforms/Utils/Local.h"
 #include "llvm/Transforms/Utils/SSAUpdater.h"
 #include <optional>
 
 using namespace llvm;
+using namespace llvm::PatternMatch;
 using vorion::BlockSet;
 
 namespace {
@@ -73,7 +77,8 @@ public:
           BasicBlock::Create(Context, "hub", To[0]->getParent(), To[0]));
   }
 
-  void build() {
+  /// The conditions of the guards.
+  SmallVector<PHINode *, 4> build() {
     SmallVector<PHINode *, 4> Taken;
     for (unsigned Guard = 0; Guard < Guards.size(); ++Guard) {
       Taken.push_back(makePhi(Type::getInt1Ty(Context), "taken"));
@@ -88,6 +93,7 @@ public:
       BranchInst::Create(To[Guard], successorOf(Guard), Taken[Guard],
                          Guards[Guard])
           ->setDebugLoc(Place);
+    return Taken;
   }
 
 private:
@@ -178,12 +184,13 @@ public:
     Order.assign(Traversal.begin(), Traversal.end());
   }
 
-  /// Builds hubs for branches whose regions do not overlap, outer ones first.
-  bool run() {
+  /// Builds hubs for branches whose regions do not overlap, outer ones first,
+  /// and returns the conditions of their guards.
+  ArrayRef<PHINode *> run() {
     for (BasicBlock *Block : Order)
       if (!Changed.count(Block) && vorion::branchesApart(Uniform, *Block))
         tryBranch(*Block);
-    return !Changed.empty();
+    return Conditions;
   }
 
 private:
@@ -210,9 +217,9 @@ private:
                    "that several paths lead to" +
                    vorion::lineOf(*First);
           });
-      Hub(ordered(Found->From), Found->To,
-          cast<BranchInst>(*Block.getTerminator()))
-          .build();
+      append_range(Conditions, Hub(ordered(Found->From), Found->To,
+                                   cast<BranchInst>(*Block.getTerminator()))
+                                   .build());
       Changed.insert(Region.begin(), Region.end());
       return;
     }
@@ -337,12 +344,12 @@ private:
   BasicBlock *Meeting = nullptr;
   /// The regions of branches that got hubs.
   BlockSet Changed;
+  SmallVector<PHINode *, 8> Conditions;
 };
 
 /// Gives values that no longer dominate all of their uses PHI nodes. They are
 /// poison on the paths through a hub that no lane takes.
-void repairValues(Function &F) {
-  DominatorTree Dominators(F);
+void repairValues(Function &F, DominatorTree &Dominators) {
   for (Instruction &I : instructions(F)) {
     SmallVector<Use *, 4> Uses;
     BasicBlock *Start = I.getParent();
@@ -366,11 +373,80 @@ void repairValues(Function &F) {
   }
 }
 
+/// Whether \p A and \p B are equal (true) or opposite (false), if that is
+/// known.
+std::optional<bool> compare(Value *A, Value *B) {
+  Value *Inner;
+  if (match(A, m_Not(m_Value(Inner)))) {
+    const std::optional<bool> Equal = compare(Inner, B);
+    return Equal ? std::optional(!*Equal) : std::nullopt;
+  }
+  if (match(B, m_Not(m_Value(Inner))))
+    return compare(B, A);
+  if (A == B)
+    return true;
+  const auto *First = dyn_cast<CmpInst>(A), *Second = dyn_cast<CmpInst>(B);
+  if (!First || !Second || First->getOperand(0) != Second->getOperand(0))
+    return std::nullopt;
+  const APInt *C, *D;
+  if (match(First->getOperand(1), m_APInt(C)) &&
+      match(Second->getOperand(1), m_APInt(D))) {
+    const auto True =
+        ConstantRange::makeExactICmpRegion(First->getPredicate(), *C);
+    const auto Other =
+        ConstantRange::makeExactICmpRegion(Second->getPredicate(), *D);
+    if (True == Other || True == Other.inverse())
+      return True == Other;
+  }
+  if (First->getOperand(1) != Second->getOperand(1))
+    return std::nullopt;
+  if (First->getPredicate() == Second->getPredicate())
+    return true;
+  if (First->getPredicate() == Second->getInversePredicate())
+    return false;
+  return std::nullopt;
+}
+
+/// LLVM threads the next test into both sides of the one before. Where the same
+/// test leads to a hub on all edges, it is made once, behind the hub.
+void mergeTests(PHINode &Condition, const DominatorTree &Dominators) {
+  Value *First = Condition.getIncomingValue(0), *Inner = First;
+  const bool IsNegated = match(First, m_Not(m_Value(Inner)));
+  const auto *Test = dyn_cast<CmpInst>(Inner);
+  if (!Test || any_of(Test->operands(), [&](const Use &Operand) {
+        const auto *I = dyn_cast<Instruction>(Operand);
+        return I && !Dominators.dominates(I, &Condition);
+      }))
+    return;
+  const SmallVector<Value *, 8> Same(Condition.incoming_values());
+  if (any_of(Same, [&](Value *Other) { return compare(First, Other) != true; }))
+    return;
+  auto *Merged = cast<CmpInst>(Test->clone());
+  Merged->insertInto(Condition.getParent(),
+                     Condition.getParent()->getFirstInsertionPt());
+  // What was known of one test need not hold of all.
+  Merged->dropUnknownNonDebugMetadata();
+  Merged->dropPoisonGeneratingFlags();
+  if (IsNegated)
+    Merged->setPredicate(Test->getInversePredicate());
+  Condition.replaceAllUsesWith(Merged);
+  Condition.eraseFromParent();
+  for (Value *Old : SmallSetVector<Value *, 8>(Same.begin(), Same.end()))
+    RecursivelyDeleteTriviallyDeadInstructions(Old);
+}
+
 } // namespace
 
 bool vorion::reconvergeEarly(Function &F, FunctionAnalysisManager &Analyses) {
-  if (!Enabled || !HubFinder(F, Analyses).run())
+  if (!Enabled)
     return false;
-  repairValues(F);
+  HubFinder Finder(F, Analyses);
+  const ArrayRef<PHINode *> Conditions = Finder.run();
+  if (Conditions.empty())
+    return false;
+  DominatorTree Dominators(F);
+  repairValues(F, Dominators);
+  for (PHINode *Condition : Conditions)
+    mergeTests(*Condition, Dominators);
   return true;
 }

@@ -108,3 +108,25 @@ yes:
 end:
   ret void
 }
+
+; LLVM threads the second test into both sides of the first: behind the hub it is made once, for whatever form it has there.
+; CHECK-LABEL: @threaded(
+; CHECK: hub:
+; CHECK-NEXT: %[[TEST:.*]] = icmp sge i32 %y, 0
+; CHECK-NEXT: br i1 %[[TEST]], label %second, label %end
+define void @threaded(i32 %x, i32 %y) {
+  %a = icmp slt i32 %x, 0
+  br i1 %a, label %skip, label %first
+first:
+  call void @work(i32 %x)
+  %b = icmp slt i32 %y, 0
+  br i1 %b, label %end, label %second
+skip:
+  %c = icmp sgt i32 %y, -1
+  br i1 %c, label %second, label %end
+second:
+  call void @work(i32 %y)
+  br label %end
+end:
+  ret void
+}
