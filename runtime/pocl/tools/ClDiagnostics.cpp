@@ -1,6 +1,8 @@
 #include "ClDiagnostics.h"
 #include "ClCommandLine.h"
 
+#include "vorion/support/ToolMessages.h"
+
 #include <CL/cl_vorion.h>
 
 #include <algorithm>
@@ -46,12 +48,25 @@ std::optional<Error> fileError(const std::string &Text) {
   return Error{"", *Problem, ExitCode::InputFile};
 }
 
+/// A compiler that gave no answer: the source may be good.
+std::optional<Error> processError(const std::string &Input,
+                                  const std::string &Text) {
+  const auto Problem = after(Text, CompilerProblem);
+  if (!Problem)
+    return std::nullopt;
+  return Error{Input, CompilerProblem + *Problem,
+               Problem->starts_with("crashed") ? ExitCode::Internal
+                                               : ExitCode::LimitReached};
+}
+
 } // namespace
 
 Error compilerError(const std::string &Input, const std::string &Log,
                     const std::string &Output) {
   if (const auto Files = fileError(Log + Output))
     return *Files;
+  if (const auto Process = processError(Input, Log + Output))
+    return *Process;
   const std::vector<std::string> Lines = linesOf(Log);
   const auto Errors = std::ranges::count_if(Lines, [](const std::string &L) {
     return L.find(": error: ") != std::string::npos ||
@@ -121,6 +136,8 @@ Error optionError(const std::string &Output) {
 Error kernelError(const std::string &Input, const std::string &Output) {
   if (const auto Files = fileError(Output))
     return *Files;
+  if (const auto Process = processError(Input, Output))
+    return *Process;
   if (const auto Reason = after(Output, KernelRefused)) {
     if (Reason->find(", expected ") != std::string::npos)
       return {Input, *Reason};

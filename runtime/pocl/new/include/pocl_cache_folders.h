@@ -33,7 +33,6 @@ int pocl_copy_from_system_cache(const char *folder, const char *place,
 int pocl_cache_take_from_system(const char *path);
 
 /* Makes a folder for what is built of a program, which goes with it. */
-POCL_EXPORT
 int pocl_cache_create_uncached_dir(cl_program program, unsigned device_i,
                                    char *program_bc_path);
 

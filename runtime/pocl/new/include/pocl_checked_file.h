@@ -6,8 +6,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "pocl_export.h"
-
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -22,14 +20,12 @@ typedef enum {
 /* Writes a file as pocl_write_file() does, with the checksum of its place in
  * the cache and its contents behind it: eight bytes, which readers of bitcode
  * and of ELF files ignore. 0 on success. */
-POCL_EXPORT
 int pocl_write_checked_file(const char *path, const char *content,
                             uint64_t size);
 
 /* The contents without the checksum, to be freed by the caller. A file that is
  * damaged or may be another user's is removed, which standard error is told of.
  * What is missing then becomes a copy of the system's, if that has it. */
-POCL_EXPORT
 pocl_checked_file_status pocl_read_checked_file(const char *path,
                                                 char **content, uint64_t *size);
 
@@ -57,9 +53,7 @@ void pocl_adopt_file_problem(const char *text);
 
 /* The sentence of this thread's first noted problem since the last call of
  * pocl_forget_file_problem(); NULL if there is none. */
-POCL_EXPORT
 const char *pocl_file_problem(void);
-POCL_EXPORT
 void pocl_forget_file_problem(void);
 
 #ifdef __cplusplus

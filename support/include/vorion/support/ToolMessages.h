@@ -190,6 +190,10 @@ bool isReadInto(Structure &Value, std::string_view Text) {
   return In.isDone();
 }
 
+/// How a line begins that says why the compiler of OpenCL programs gave no
+/// answer: in build logs, and in what vorion-clang reads of them.
+inline constexpr const char *CompilerProblem = "the compiler ";
+
 /// How a server process ended, which the process that waits for it tells the
 /// client over a second socket.
 struct ServerEnd {

@@ -20,7 +20,6 @@ namespace vorion {
 namespace {
 
 constexpr int LimitReached = 5; // of vorion::ExitCode
-constexpr const char *Wanted = ", expected errors or a result";
 
 /// Which file a descriptor is of; 0 of none.
 ino_t fileOf(int Descriptor) {
@@ -71,21 +70,25 @@ struct Server {
   }
 
   CompilerFailure failure() {
+    constexpr const char *Wanted = ", expected errors or a result";
+    const auto Because = [&](const std::string &What) {
+      return CompilerProblem + What + Wanted;
+    };
     ServerEnd Ended;
     const auto Text = End.receive();
     if (!Text || !isReadInto(Ended, *Text))
-      return {std::string("the compiler was ended") + Wanted, {}};
+      return {Because("was ended"), {}};
     const int Status = Ended.WaitStatus;
     if (WIFSIGNALED(Status))
-      return {"the compiler crashed (signal " +
-                  std::to_string(WTERMSIG(Status)) + ", " +
-                  strsignal(WTERMSIG(Status)) + ")" + Wanted,
+      return {Because("crashed (signal " + std::to_string(WTERMSIG(Status)) +
+                      ", " + strsignal(WTERMSIG(Status)) + ")"),
               {}};
     if (WEXITSTATUS(Status) == LimitReached)
-      return {"the compiler reached a limit", Ended.Printed, true};
-    return {"the compiler ended with exit code " +
-                std::to_string(WEXITSTATUS(Status)) + Wanted,
-            Ended.Printed};
+      return {Because("reached a limit of memory or time"), Ended.Printed,
+              true};
+    return {
+        Because("ended with exit code " + std::to_string(WEXITSTATUS(Status))),
+        Ended.Printed};
   }
 };
 
@@ -145,8 +148,10 @@ std::variant<Server, CompilerFailure> start(const CompilerProgram &Compiler) {
                                    : errno;
   if (Problem == 0)
     return Server{std::move(Calls->Ours), std::move(End->Ours)};
-  return CompilerFailure{
-      Compiler.File + " cannot be started: " + strerror(Problem), {}, true};
+  return CompilerFailure{CompilerProblem + Compiler.File +
+                             " cannot be started: " + strerror(Problem),
+                         {},
+                         true};
 }
 
 /// Compilers that nobody uses, with their environments: what a program sets
