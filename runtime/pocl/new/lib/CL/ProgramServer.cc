@@ -114,6 +114,9 @@ public:
   Program(const Program &) = delete;
   Program &operator=(const Program &) = delete;
   ~Program() {
+    for (size_t I = 0; I != Of.num_kernels; ++I)
+      pocl_free_kernel_metadata(&Of, I);
+    std::free(Of.kernel_meta);
     pocl_llvm_free_llvm_irs(&Of, 0);
     std::free(Binary);
     std::free(Log);
@@ -139,7 +142,19 @@ public:
     Answer.Hash = reinterpret_cast<const char *>(Hash);
     Answer.Binary.assign(reinterpret_cast<const char *>(Binary), BinarySize);
     Answer.Log = Log ? Log : "";
-    Answer.Kernels.VariableBytes = VariableBytes;
+    Answer.VariableBytes = VariableBytes;
+  }
+
+  /// Of a program that is linked with the library.
+  cl_int describeKernels(CompilerAnswer &Answer) {
+    Of.num_kernels = pocl_llvm_get_kernel_count(&Of, 0);
+    Of.kernel_meta = static_cast<pocl_kernel_metadata_t *>(
+        std::calloc(Of.num_kernels, sizeof(*Of.kernel_meta)));
+    const cl_int Status = pocl_llvm_get_kernels_metadata(&Of, 0);
+    ProgramKernels Kernels{VariableBytes, Of.kernel_meta,
+                           static_cast<cl_uint>(Of.num_kernels)};
+    Answer.Kernels = textOf(Kernels);
+    return Status;
   }
 
 private:
@@ -190,6 +205,8 @@ void makeProgram(CompilerRequest &Request, CompilerAnswer &Answer) {
     else
       link(Request, Answer, Made);
     Made.describe(Answer);
+    if (Answer.Status == CL_SUCCESS && Request.LinksLibrary)
+      Answer.Status = Made.describeKernels(Answer);
     MayKeep = Made.module() && LinkContext->hasOnlyLibraryTypes(*Made.module());
   }
   if (!MayKeep)
@@ -202,15 +219,7 @@ void describeKernels(CompilerRequest &Request, CompilerAnswer &Answer) {
   Answer.Status = CL_INVALID_BINARY;
   if (Request.Binaries.size() != 1 || !Of.read(Request.Binaries[0]))
     return;
-  ProgramKernels &Kernels = Answer.Kernels;
-  Of.describe(Answer);
-  Answer.Binary.clear();
-  Kernels.Count = pocl_llvm_get_kernel_count(Of.get(), 0);
-  Kernels.All = static_cast<pocl_kernel_metadata_t *>(
-      std::calloc(Kernels.Count, sizeof(*Kernels.All)));
-  Of.get()->num_kernels = Kernels.Count;
-  Of.get()->kernel_meta = Kernels.All;
-  Answer.Status = pocl_llvm_get_kernels_metadata(Of.get(), 0);
+  Answer.Status = Of.describeKernels(Answer);
 }
 
 void makeKernelImage(CompilerRequest &Request, CompilerAnswer &Answer,

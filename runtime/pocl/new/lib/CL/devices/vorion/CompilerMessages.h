@@ -86,8 +86,9 @@ struct CompilerAnswer {
   std::string Hash, Binary;   ///< of the program
   std::string Log;            ///< to be added to the program's
   std::string FileProblem;    ///< as pocl_file_problem() gives it; may be empty
-  ProgramKernels Kernels;
-  std::string Image; ///< an ELF file; empty if the kernel has an error
+  size_t VariableBytes = 0;   ///< of program scope
+  std::string Kernels;        ///< ProgramKernels; empty if it has no library
+  std::string Image;          ///< an ELF file; empty if the kernel has an error
   std::string Object, Bitcode;
   std::string Problem; ///< why there is no image: a line
   std::string Printed; ///< on standard error
@@ -98,7 +99,8 @@ template <typename Archive> void visit(Archive &A, CompilerAnswer &Answer) {
   A.text(Answer.Binary);
   A.text(Answer.Log);
   A.text(Answer.FileProblem);
-  visit(A, Answer.Kernels);
+  A.number(Answer.VariableBytes);
+  A.text(Answer.Kernels);
   A.text(Answer.Image);
   A.text(Answer.Object);
   A.text(Answer.Bitcode);

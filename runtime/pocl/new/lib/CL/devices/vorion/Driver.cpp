@@ -176,12 +176,7 @@ int buildBinary(cl_program Program, cl_uint Index, int Link, int Spir) {
 }
 
 int setupMetadata(cl_device_id, cl_program Program, unsigned Index) {
-  if (takeKernels(Program, Index))
-    return 1;
-  if (!describeKernels(Program, Index))
-    return 0;
-  keepKernels(Program, Index);
-  return 1;
+  return takeKernels(Program, Index) || describeKernels(Program, Index);
 }
 
 // --- Commands and events. The lock of an event or queue is held by the caller

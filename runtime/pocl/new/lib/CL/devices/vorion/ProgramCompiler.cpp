@@ -43,7 +43,9 @@ void take(cl_program Program, cl_uint Index, const CompilerAnswer &Answer) {
   Program->binary_sizes[Index] = Answer.Binary.size();
   Answer.Binary.copy(reinterpret_cast<char *>(Program->binaries[Index]),
                      Answer.Binary.size());
-  Program->global_var_total_size[Index] = Answer.Kernels.VariableBytes;
+  Program->global_var_total_size[Index] = Answer.VariableBytes;
+  if (!Answer.Kernels.empty())
+    keepKernels(Program, Index, Answer.Kernels);
 }
 
 const Tools &toolsFor(cl_program Program, cl_uint Index) {
@@ -97,8 +99,8 @@ bool vorion::describeKernels(cl_program Program, cl_uint Index) {
   }
   if (Answer.Status != CL_SUCCESS)
     return false;
-  adoptKernels(Program, Index, Answer.Kernels);
-  return true;
+  keepKernels(Program, Index, Answer.Kernels);
+  return adoptKernels(Program, Index, Answer.Kernels);
 }
 
 // --- The functions of pocl_llvm.h. Nothing is prepared for them, and no

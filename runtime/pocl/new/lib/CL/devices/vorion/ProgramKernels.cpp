@@ -23,14 +23,23 @@ std::string pathOf(cl_program Program, cl_uint Index) {
 
 } // namespace
 
-void adoptKernels(cl_program Program, cl_uint Index,
-                  const ProgramKernels &Known) {
+bool adoptKernels(cl_program Program, cl_uint Index, std::string_view Text) {
+  ProgramKernels Known;
+  const bool IsWhole = isReadInto(Known, Text);
   Program->kernel_meta = Known.All;
   Program->num_kernels = Known.Count;
   for (cl_uint I = 0; I != Known.Count; ++I)
     Known.All[I].data =
         static_cast<void **>(calloc(Program->num_devices, sizeof(void *)));
   Program->global_var_total_size[Index] = Known.VariableBytes;
+  if (IsWhole)
+    return true;
+  for (cl_uint I = 0; I != Known.Count; ++I)
+    pocl_free_kernel_metadata(Program, I);
+  POCL_MEM_FREE(Program->kernel_meta);
+  Program->num_kernels = 0;
+  Program->global_var_total_size[Index] = 0;
+  return false;
 }
 
 bool takeKernels(cl_program Program, cl_uint Index) {
@@ -39,27 +48,14 @@ bool takeKernels(cl_program Program, cl_uint Index) {
   if (pocl_read_checked_file(pathOf(Program, Index).c_str(), &Bytes, &Size) !=
       POCL_CHECKED_FILE_OK)
     return false;
-  ProgramKernels Kept;
-  const bool IsWhole = isReadInto(Kept, {Bytes, Size});
+  const bool IsTaken = adoptKernels(Program, Index, {Bytes, Size});
   free(Bytes);
-  adoptKernels(Program, Index, Kept);
-  if (IsWhole)
-    return true;
-  for (cl_uint I = 0; I != Kept.Count; ++I)
-    pocl_free_kernel_metadata(Program, I);
-  POCL_MEM_FREE(Program->kernel_meta);
-  Program->num_kernels = 0;
-  Program->global_var_total_size[Index] = 0;
-  return false;
+  return IsTaken;
 }
 
-void keepKernels(cl_program Program, cl_uint Index) {
-  ProgramKernels Known{Program->global_var_total_size[Index],
-                       Program->kernel_meta,
-                       static_cast<cl_uint>(Program->num_kernels)};
-  const std::string Bytes = textOf(Known);
-  pocl_write_checked_file(pathOf(Program, Index).c_str(), Bytes.data(),
-                          Bytes.size());
+void keepKernels(cl_program Program, cl_uint Index, std::string_view Text) {
+  pocl_write_checked_file(pathOf(Program, Index).c_str(), Text.data(),
+                          Text.size());
 }
 
 } // namespace vorion

@@ -5,17 +5,19 @@
 #include "ProgramFields.h"
 #include "vorion.h"
 
+#include <string_view>
+
 namespace vorion {
 
-/// Gives \p Program the kernels, whose memory becomes the program's.
-void adoptKernels(cl_program Program, cl_uint Index,
-                  const ProgramKernels &Known);
+/// Fills in kernel_meta, num_kernels and global_var_total_size from \p Text, a
+/// ProgramKernels (ProgramFields.h). False, and nothing filled in, if it is
+/// none.
+bool adoptKernels(cl_program Program, cl_uint Index, std::string_view Text);
 
-/// Fills in kernel_meta, num_kernels and global_var_total_size as they were
-/// kept. False, and nothing filled in, if nothing was.
+/// The same from what was kept. False if nothing was.
 bool takeKernels(cl_program Program, cl_uint Index);
 
 /// Keeps them. That they cannot be kept is no problem.
-void keepKernels(cl_program Program, cl_uint Index);
+void keepKernels(cl_program Program, cl_uint Index, std::string_view Text);
 
 } // namespace vorion
