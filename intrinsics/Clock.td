@@ -56,6 +56,7 @@ def : ClockReason<CoreComputes, "operand", "#cc79a7", "waited for a result of an
 def : ClockReason<CoreAccesses, "memory", "#d55e00", "waited for a value from global memory">;
 def : ClockReason<CoreAccesses, "local", "#f0c05a", "waited for a value from local memory">;
 def : ClockReason<CoreComputes, "unit", "#b07aa1", "waited for a unit that was busy">;
+def : ClockReason<CoreComputes, "slot", "#9c755f", "lost an issue slot: it was the turn of a warp whose instruction could not issue yet">;
 def : ClockReason<CoreAccesses, "lsu_queue", "#e69f00", "waited for a place among the accesses in flight">;
 def : ClockReason<CoreBranches, "branch", "#56b4e9", "waited for the front end behind a branch">;
 def : ClockReason<CoreBranches, "divergence", "#8ecae6", "waited for the front end behind an instruction that sets the active lanes">;

@@ -36,6 +36,9 @@ if [ ! -d "$References" ]; then
 fi
 findPeer loops
 "$Timing/cores.py" "$References" "${Peer[@]}" || Status=$?
+if [ -f "$References/vortex5_warps.json" ]; then
+  "$Timing/warps.py" "$References" || Status=$?
+fi
 if command -v dram_patterns >/dev/null; then
   printf '\nOne LPDDR4-3200 channel beside Ramulator:\n\n'
   findPeer dram

@@ -94,10 +94,10 @@ def time_of(program, preset, warps, changes=(), options=()):
         return json.load(file)["runs"][0]["time"]
 
 
-def per_iteration(folder, kernel, preset, warps):
+def per_iteration(folder, kernel, preset, warps, changes=()):
     """(cycles, the machine's name)."""
     few, many = kernel["iterations"]
-    took = [time_of(assemble(folder, kernel, n), preset, warps) for n in (few, many)]
+    took = [time_of(assemble(folder, kernel, n), preset, warps, changes) for n in (few, many)]
     return (took[1]["cycles"] - took[0]["cycles"]) / (many - few), clocked.name(took[1])
 
 

@@ -77,10 +77,10 @@ def image_of(program):
     return image
 
 
-def ours(program, machine):
-    """(time report, hash of the result) of a program on our machine."""
+def ours(program, machine, more=()):
+    """(time report, hash of the result) of a program on our machine, and what else is changed."""
     changes = ("timing.socket.icache_kib=16", "timing.core.interleaved_stacks=0",
-               f"timing.l2.fixed_cycles={machine['fixed_cycles']}")
+               f"timing.l2.fixed_cycles={machine['fixed_cycles']}", *more)
     result = program + ".result"
     time = cores.time_of(program, machine["preset"], machine["warps"], changes, ("--signature", result))
     with open(result) as file:

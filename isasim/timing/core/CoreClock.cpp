@@ -6,18 +6,26 @@
 
 namespace vorion::isasim {
 
+/// The same, with the length of the queue for \p Warps warps.
+static CoreTiming forWarps(CoreTiming P, size_t Warps) {
+  P.LsuQueue =
+      std::max(P.LsuQueue, P.LsuQueuePerWarp * static_cast<uint32_t>(Warps));
+  return P;
+}
+
 CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
                      const std::vector<TraceBuffer *> &Traces,
                      unsigned Barriers, bool AsksForCodeIn)
-    : Timing(Params), Unit(ToMemory.Unit), IsAlone(Traces.size() == 1),
-      AsksForCode(AsksForCodeIn),
+    : Timing(forWarps(Params, Traces.size())), Unit(ToMemory.Unit),
+      IsAlone(Traces.size() == 1), AsksForCode(AsksForCodeIn),
       IsIdeal(Timing.FetchInterval == 1 && Timing.BranchCycles == 1 &&
               Timing.SplitCycles == 1 && Timing.JoinCycles == 1 &&
               Timing.CsrCycles == 1 && Timing.UnitQueue == 0 &&
               Timing.Fpu == 0 && !AsksForCode && IsAlone),
       Others(Traces.size()), LocalBarriers(Barriers),
       InFlight(ToMemory, Timing.LsuQueue + 1), Accesses(Timing.LsuQueue),
-      L1(Timing.DcacheKib, Timing.DcacheWays) {
+      L1(Timing.DcacheKib, Timing.DcacheWays),
+      Doors(L1.exists() ? Timing.DcacheBanks : 0, Timing.DcacheStoreQueue) {
   for (unsigned W = 0; W != Others.size(); ++W)
     of(W).Trace = Traces[W];
 }
@@ -39,6 +47,7 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
   UnitsBusyUntil = 0;
   LastDone = 0;
   L1.clear();
+  Doors.clear();
   Spent = Told = {};
   ToldUntil = Start;
   Serial = 0;
@@ -59,6 +68,7 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
   for (auto &Arrived : LocalBarriers)
     Arrived.clear();
   LastIssued = 0;
+  SlotAt = 0;
   Presented = State::Starved;
   InTurn = Turn(Next, false);
 }
@@ -111,8 +121,7 @@ void CoreClock::fetched(unsigned Warp, uint32_t Line, uint64_t Then,
   Blocked = false;
   Now = State::Starved;
   CodeLine = Line;
-  Fetched = std::max(Fetched, Then);
-  FetchWhy = CoreCycle::Fetch;
+  decodeNotBefore(Then, CoreCycle::Fetch);
   if (ForGood)
     CodeReady[Line] = Then;
 }
@@ -137,7 +146,7 @@ bool CoreClock::access(MemorySystem &Memory) {
   unsigned Place = Timing.LsuQueue;
   if (needsPlace(O, A)) {
     Place = firstPlace();
-    if (const uint64_t Free = InFlight.readyAt(Place); Free > At) {
+    if (const uint64_t Free = placeFreeAt(Place); Free > At) {
       At = Free;
       return false;
     }
@@ -161,13 +170,18 @@ bool CoreClock::access(MemorySystem &Memory) {
   }
   const bool UsesL1 = L1.exists() && O.Class == OpClass::Load;
   bool IsStale = false;
+  const uint64_t First = R.Now;
+  uint64_t Last = First;
   uint32_t Room = Timing.LinesAtOnce;
   for (unsigned N = 0; N != A.Lines; ++N, --Room) {
-    if (Room == 0) {
-      R.Now += Timing.LineCycles;
+    R.Address = Trace->word(1 + N);
+    if (Doors.exist()) {
+      R.Now = Doors.enter(R.Address, First);
+      Last = std::max(Last, R.Now);
+    } else if (Room == 0) {
+      Last = R.Now += Timing.LineCycles;
       Room = Timing.LinesAtOnce;
     }
-    R.Address = Trace->word(1 + N);
     if (UsesL1)
       if (const auto *Line = findInL1(R.Address, R.Now, Place)) {
         IsStale |= Memory.writers().isWritten(R.Address, Line->Writes, Unit);
@@ -176,9 +190,11 @@ bool CoreClock::access(MemorySystem &Memory) {
     CacheRequest Below = R;
     // The tags have been looked up before the request goes on.
     Below.Now += UsesL1 ? Timing.DcacheCycles : 0;
+    if (Doors.exist())
+      Below.Now = Doors.leave(R.Address, Below.Now);
     InFlight.ask(Memory, Place, Below);
   }
-  const uint64_t Leaving = R.Now + Timing.LineCycles - (At + Timing.AguCycles);
+  const uint64_t Leaving = Last + Timing.LineCycles - First;
   LinesRequested += A.Lines;
   StaleLoads += IsStale;
   Trace->popWords(1 + A.Lines);
@@ -222,7 +238,7 @@ void CoreClock::answer(uint32_t Tag, uint64_t Then) {
       });
     // The access in front may have waited for a place.
     if (Now == State::Access)
-      At = std::min(At, std::max(Next, Done));
+      At = std::min(At, std::max(Next, Done + Timing.LsuHold));
   }
   if (Now == State::Answer || !IsAlone)
     advance();

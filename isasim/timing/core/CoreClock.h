@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace vorion::isasim {
@@ -66,6 +67,53 @@ private:
   uint64_t Uses = 0;
 };
 
+/// The doors of a data cache: a bank takes a line a cycle. Stores wait behind
+/// their bank for the core's port, which lets one line a cycle out; while a
+/// bank's queue is full it takes nothing.
+class DataCacheDoors {
+public:
+  DataCacheDoors(uint32_t BanksIn, uint32_t QueueIn)
+      : Banks(BanksIn), Queue(QueueIn) {}
+
+  bool exist() const { return Banks != 0; }
+  void clear() {
+    FreeAt.assign(Banks, 0);
+    Leaves.assign(size_t{Banks} * Queue, 0);
+    Oldest.assign(Banks, 0);
+    PortAt = 0;
+  }
+  /// When the bank of \p Address takes a line that comes at \p Now.
+  uint64_t enter(uint32_t Address, uint64_t Now) {
+    const uint32_t Bank = bankOf(Address);
+    uint64_t At = std::max(Now, FreeAt[Bank]);
+    if (Queue)
+      At = std::max(At, Leaves[Bank * Queue + Oldest[Bank]]);
+    FreeAt[Bank] = At + 1;
+    return At;
+  }
+  /// When a line that its bank has done with at \p Now is let out.
+  uint64_t leave(uint32_t Address, uint64_t Now) {
+    const uint32_t Bank = bankOf(Address);
+    const uint64_t At = std::max(Now, PortAt);
+    PortAt = At + 1;
+    if (Queue) {
+      Leaves[Bank * Queue + Oldest[Bank]] = At;
+      Oldest[Bank] = Oldest[Bank] + 1 == Queue ? 0 : Oldest[Bank] + 1;
+    }
+    return At;
+  }
+
+private:
+  uint32_t bankOf(uint32_t Address) const {
+    return Address / TimingLineBytes % Banks;
+  }
+  uint32_t Banks, Queue;
+  std::vector<uint64_t> FreeAt; ///< by bank
+  std::vector<uint64_t> Leaves; ///< by bank, a ring of the last that leave
+  std::vector<uint32_t> Oldest; ///< by bank, in its ring
+  uint64_t PortAt = 0;
+};
+
 /// What a core knows of one of its warps.
 struct WarpTime {
   enum class State : uint8_t {
@@ -101,8 +149,18 @@ struct WarpTime {
   std::array<uint64_t, NumRegisters> Ready{};
   std::array<CoreCycle, NumRegisters> ReadyWhy{};
   uint64_t Fetched = 0; ///< when the next instruction can issue at the earliest
+  /// When it was decoded; before Fetched if it waits behind others. Only for
+  /// holdDecoder().
+  uint64_t Decoded = 0;
   CoreCycle FetchWhy = CoreCycle::Fetch;
   uint32_t CodeLine = NoLine; ///< of its last instruction
+
+  /// The next instruction is decoded at \p Then at the earliest.
+  void decodeNotBefore(uint64_t Then, CoreCycle Why) {
+    Fetched = std::max(Fetched, Then);
+    Decoded = Fetched;
+    FetchWhy = Why;
+  }
 
   static constexpr uint32_t NoLine = ~0U;
 };
@@ -235,17 +293,24 @@ private:
   bool waitUntilQuiet();
   void waitForUnit(const OpInfo &O) {
     waitUntil(UnitFree[size_t(O.On)], CoreCycle::Unit);
+    waitUntil(SlotAt, CoreCycle::Slot);
   }
   /// Whether an access needs a place among those in flight.
   bool needsPlace(const OpInfo &O, AccessWord A) const {
     return Timing.LoadsQueue ? O.Class != OpClass::Store : A.Lines != 0;
   }
   unsigned firstPlace() const;
+  /// When a place among the accesses in flight is free; Turn::Never if unknown.
+  uint64_t placeFreeAt(unsigned Place) const {
+    const uint64_t Answered = InFlight.readyAt(Place);
+    return Answered == Turn::Never || Answered == 0 ? Answered
+                                                    : Answered + Timing.LsuHold;
+  }
   size_t placeOf(const OpInfo &O, uint64_t Begin) const;
   uint64_t unitFreeAt(const OpInfo &O, uint64_t Now) const;
   bool beginsAtOnce(uint64_t Now, const OpInfo &O);
   uint64_t beginOnUnit(Front &F, const OpInfo &O);
-  void fetchNext(Front &F, const OpInfo &O, uint64_t Begun) const;
+  void fetchNext(Front &F, const OpInfo &O, uint64_t Begun);
   void issue(Front &F, const OpInfo &O);
   template <bool Ideal> bool reach(Front &F, const OpInfo &O);
   bool reach(const OpInfo &O);
@@ -286,15 +351,25 @@ private:
   // Several warps.
   void advanceInTurn(uint64_t Until);
   uint64_t earliest(WarpTime &W);
+  /// A warp that shares the issue slots.
+  struct SlotWarp {
+    unsigned Warp;
+    uint64_t DecodedAt; ///< from then on slots are given to it
+    uint64_t ReadyAt;   ///< when it can use one; Turn::Never if unknown
+    uint64_t FullAt;    ///< from then on it keeps the decoder; see fullAt()
+  };
+  std::pair<unsigned, uint64_t> firstInTurn() const;
+  uint64_t fullAt(const WarpTime &W) const;
+  void holdDecoder();
   uint64_t earliestIssue(const WarpTime &W, const RunRecord &R) const;
   bool atSpawn(const WarpTime &W) const;
   void advanceFront();
   void spawn(const OpInfo &O);
   void arrive(const OpInfo &O, uint32_t Barrier, uint32_t Count);
 
-  const CoreTiming Timing;
-  const uint32_t Unit; ///< as memory knows it
-  const bool IsAlone;  ///< there is one warp
+  const CoreTiming Timing; ///< LsuQueue is that of all warps
+  const uint32_t Unit;     ///< as memory knows it
+  const bool IsAlone;      ///< there is one warp
   const bool AsksForCode;
   /// Whether the front end always has the next instruction, but behind a branch
   /// or a change of lanes, nobody waits in front of a unit, and there is one
@@ -308,7 +383,12 @@ private:
 
   std::vector<WarpTime> Others; ///< by warp; not used for the current one
   unsigned Current = 0;
-  unsigned LastIssued = 0; ///< a warp: the others come first
+  unsigned LastIssued = 0;       ///< a warp: the others come first
+  std::vector<SlotWarp> Sharing; ///< with IssueInTurn; reused
+  unsigned Holder = 0;           ///< the warp that keeps the decoder from Held
+  uint32_t Held = 0;             ///< warps, as bits
+  /// When the current warp's slot comes, with IssueInTurn.
+  uint64_t SlotAt = 0;
   State Presented = State::Starved;
   Turn InTurn;
   std::vector<std::vector<unsigned>> LocalBarriers; ///< who has arrived
@@ -348,6 +428,7 @@ private:
   std::vector<Access> Accesses; ///< by place
   uint64_t LastDone = 0; ///< of the accesses to memory whose end is known
   DataCache L1;
+  DataCacheDoors Doors;
 
   CoreTime Spent;
   const TimeWatch *Watch = nullptr;

@@ -20,10 +20,8 @@ bool CoreClock::isInCode(WarpTime &W, uint32_t Instruction) const {
     return false;
   }
   W.CodeLine = Line;
-  if (CodeReady[Line] > W.Fetched) {
-    W.Fetched = CodeReady[Line];
-    W.FetchWhy = CoreCycle::Fetch;
-  }
+  if (CodeReady[Line] > W.Fetched)
+    W.decodeNotBefore(CodeReady[Line], CoreCycle::Fetch);
   return true;
 }
 
@@ -142,6 +140,7 @@ inline bool CoreClock::beginsAtOnce(uint64_t Now, const OpInfo &O) {
 [[gnu::always_inline]] inline uint64_t CoreClock::beginOnUnit(Front &F,
                                                               const OpInfo &O) {
   waitUntil(F, unitFreeAt(O, F.Next), CoreCycle::Unit);
+  waitUntil(F, SlotAt, CoreCycle::Slot);
   const auto On = size_t(O.On);
   uint64_t Begun = std::max(F.Next, UnitFree[On]);
   if (O.Hold) {
@@ -161,15 +160,15 @@ inline bool CoreClock::beginsAtOnce(uint64_t Now, const OpInfo &O) {
 }
 
 /// Behind \p O, which has issued and which its unit begins at \p Begun.
-inline void CoreClock::fetchNext(Front &F, const OpInfo &O,
-                                 uint64_t Begun) const {
+inline void CoreClock::fetchNext(Front &F, const OpInfo &O, uint64_t Begun) {
   if (O.Redirect) {
-    F.Fetched = Begun + O.Redirect;
+    Decoded = F.Fetched = Begun + O.Redirect;
     F.FetchWhy = O.Class == OpClass::Branch ? CoreCycle::Branch
                  : O.Class == OpClass::Csr  ? CoreCycle::Fetch
                                             : CoreCycle::Divergence;
     return;
   }
+  Decoded = F.Fetched + Timing.FetchInterval;
   // Fetching stops while its buffer is full.
   const uint64_t Ahead =
       uint64_t{Timing.FetchInterval} * (Timing.FetchAhead - 1);
@@ -336,8 +335,7 @@ bool CoreClock::advanceParked(const OpInfo &O) {
   const auto Kind = static_cast<Event>(Trace->word());
   if (Kind == Event::Spawn) {
     Trace->popWords(1);
-    Fetched = std::max(Fetched, Spawns.front());
-    FetchWhy = CoreCycle::Ended;
+    decodeNotBefore(Spawns.front(), CoreCycle::Ended);
     Spawns.erase(Spawns.begin());
     return true;
   }

@@ -162,6 +162,42 @@ INSTANTIATE_TEST_SUITE_P(
       return Name;
     });
 
+/// What the RTL of May 2023 does and no number says.
+class FiveStagesTest : public ClockTest {
+protected:
+  FiveStagesTest() {
+    Settings.Timing.Core = numbersOf(CorePreset::Vortex5Stage);
+    Settings.Timing.Core.DcacheKib = 16;
+  }
+  static constexpr unsigned N = 100;
+};
+
+TEST_F(FiveStagesTest, TheDecoderDoesAJoin) {
+  // The join waits in the buffer until the division is done, and the split
+  // behind it in the decoder.
+  const Words Body = {encode(Op::VX_SPLIT, {.Rd = 11, .Rs1 = 0}),
+                      encode(Op::RV_DIV, {.Rd = 10, .Rs1 = 6, .Rs2 = 7}),
+                      addi(10, 10, 0), encode(Op::VX_JOIN, {.Rs1 = 11})};
+  EXPECT_EQ(cost(N, Body), N * (8U + 38 + 2));
+}
+
+TEST_F(FiveStagesTest, StoresWaitForTheCoresPort) {
+  const Words Before = {lui(7, 0x100000),
+                        encode(Op::RV_SLLI, {.Rd = 10, .Rs1 = 6, .Imm = 6}),
+                        encode(Op::RV_ADD, {.Rd = 7, .Rs1 = 7, .Rs2 = 10})};
+  EXPECT_NEAR(double(cost(N, {sw(6, 0, 7)}, Before)), 16.0 * N, 40);
+  // A load behind three stores waits until the first has left, one behind a
+  // single store does not.
+  const Words Load = {lw(12, 0, 7), addi(12, 12, 0)};
+  const auto Round = [&](unsigned Stores) {
+    return cost(
+        N, repeat(Stores, {sw(6, 0, 7)}) + Load + repeat(20, {addi(13, 6, 0)}),
+        Before);
+  };
+  const uint64_t One = Round(1), Three = Round(3);
+  EXPECT_NEAR(double(Three - One), N * (2 * 5.0 + 16), N * 8.0);
+}
+
 /// Single numbers, changed in what is otherwise `forwarding`.
 using CoreNumbersTest = ClockTest;
 

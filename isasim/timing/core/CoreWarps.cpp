@@ -47,8 +47,7 @@ uint64_t CoreClock::earliestIssue(const WarpTime &W, const RunRecord &R) const {
     const auto A =
         std::bit_cast<AccessWord>(W.Trace->word(R.Count == 0 ? 1 : 0));
     Then = std::max(Then, UnitFree[size_t(Port::Lsu)]);
-    return needsPlace(O, A) ? std::max(Then, InFlight.readyAt(firstPlace()))
-                            : Then;
+    return needsPlace(O, A) ? std::max(Then, placeFreeAt(firstPlace())) : Then;
   }
   case OpClass::Fence:
     return std::max(Then, quietAt());
@@ -85,6 +84,82 @@ uint64_t CoreClock::earliest(WarpTime &W) {
   return earliestIssue(W, W.Trace->front());
 }
 
+/// The warp that issues first, and when, where each cycle's slot is given in
+/// turn to one of the warps with a decoded instruction, whether or not it can
+/// issue (`timing.core.issue_in_turn`). Warp Count and Turn::Never if it is
+/// nobody.
+std::pair<unsigned, uint64_t> CoreClock::firstInTurn() const {
+  const unsigned Count = warps();
+  const auto After = [&](unsigned Last, const SlotWarp &S) {
+    return (S.Warp + Count - Last - 1) % Count;
+  };
+  unsigned Last = LastIssued;
+  for (uint64_t Begin = Next; Begin != Turn::Never;) {
+    // Until another warp's instruction is decoded, the same warps take turns.
+    uint64_t End = Turn::Never;
+    unsigned Taking = 0;
+    for (const SlotWarp &S : Sharing)
+      if (S.DecodedAt <= Begin)
+        ++Taking;
+      else
+        End = std::min(End, S.DecodedAt);
+    std::pair<unsigned, uint64_t> First(Count, Turn::Never);
+    unsigned LastTaker = Last;
+    for (const SlotWarp &S : Sharing) {
+      if (S.DecodedAt > Begin)
+        continue;
+      unsigned Place = 0;
+      for (const SlotWarp &Other : Sharing)
+        Place +=
+            Other.DecodedAt <= Begin && After(Last, Other) < After(Last, S);
+      if (End != Turn::Never && (End - Begin - 1) % Taking == Place)
+        LastTaker = S.Warp;
+      uint64_t Slot = Begin + Place;
+      if (S.ReadyAt == Turn::Never)
+        continue;
+      if (S.ReadyAt > Slot)
+        Slot += (S.ReadyAt - Slot + Taking - 1) / Taking * Taking;
+      if (Slot < End && Slot < First.second)
+        First = {S.Warp, Slot};
+    }
+    if (First.first != Count)
+      return First;
+    Last = LastTaker;
+    Begin = End;
+  }
+  return {Count, Turn::Never};
+}
+
+/// When \p W has as many decoded instructions as its buffer holds, and one more
+/// is fetched that has to wait in the decoder; Turn::Never if its front end
+/// stops before. What follows the run is not known yet.
+uint64_t CoreClock::fullAt(const WarpTime &W) const {
+  const RunRecord R = W.Trace->front();
+  if (!Timing.DecodeBlocks || W.Position + Timing.FetchAhead >= R.Count)
+    return Turn::Never;
+  for (unsigned N = 0; N != Timing.FetchAhead; ++N)
+    if ((*Ops)[R.First + W.Position + N].Redirect)
+      return Turn::Never;
+  return W.Fetched + uint64_t{Timing.FetchInterval} * Timing.FetchAhead;
+}
+
+/// The warp whose instruction waits in the decoder first keeps it until it
+/// issues: what others fetch later is not decoded.
+void CoreClock::holdDecoder() {
+  Held = 0;
+  uint64_t FullAt = Turn::Never;
+  for (const SlotWarp &S : Sharing)
+    if (S.FullAt < FullAt) {
+      FullAt = S.FullAt;
+      Holder = S.Warp;
+    }
+  for (SlotWarp &S : Sharing)
+    if (S.Warp != Holder && of(S.Warp).Decoded > FullAt) {
+      Held |= 1U << S.Warp;
+      S.DecodedAt = S.ReadyAt = Turn::Never;
+    }
+}
+
 /// Goes on, always with the warp that can issue first, to the next request. A
 /// warp that waits for others may go on before those of its core: then only
 /// what is not later than \p Until is done.
@@ -94,6 +169,18 @@ void CoreClock::advanceInTurn(uint64_t Until) {
     unsigned First = Count;
     uint64_t FirstAt = Turn::Never;
     bool FirstIsStarved = false, SomeWait = false;
+    // At equal times a warp whose next instruction is unknown goes first,
+    // because that instruction may be the earliest; then one with a request.
+    const auto Consider = [&](unsigned N, uint64_t Then, bool IsRequest,
+                              bool IsStarved) {
+      if (Then < FirstAt || (Then == FirstAt && Then != Turn::Never &&
+                             (IsStarved || (IsRequest && !FirstIsStarved)))) {
+        First = N;
+        FirstAt = Then;
+        FirstIsStarved = IsStarved;
+      }
+    };
+    Sharing.clear();
     for (unsigned K = 1; K <= Count; ++K) {
       const unsigned N = (LastIssued + K) % Count;
       WarpTime &W = of(N);
@@ -106,15 +193,22 @@ void CoreClock::advanceInTurn(uint64_t Until) {
       const bool IsStarved = !IsRequest && W.Trace->empty();
       // It waits for memory, or for a vx_wspawn.
       SomeWait |= Then == Turn::Never && !IsStarved;
-      // At equal times a warp whose next instruction is unknown goes first,
-      // because that instruction may be the earliest; then one with a request.
-      if (Then < FirstAt || (Then == FirstAt && Then != Turn::Never &&
-                             (IsStarved || (IsRequest && !FirstIsStarved)))) {
-        First = N;
-        FirstAt = Then;
-        FirstIsStarved = IsStarved;
-      }
+      if (!Timing.IssueInTurn || IsRequest ||
+          (W.Trace->empty() ? W.Ended : atSpawn(W)))
+        Consider(N, Then, IsRequest, IsStarved);
+      else
+        Sharing.push_back({N, std::max(Next, W.Fetched), Then,
+                           IsStarved ? Turn::Never : fullAt(W)});
     }
+    holdDecoder();
+    const auto [Taker, Slot] = firstInTurn();
+    if (Taker != Count)
+      Consider(Taker, Slot, false, false);
+    // Whether a warp goes on or has ended decides who shares the slots.
+    for (const SlotWarp &S : Sharing)
+      if (of(S.Warp).Trace->empty() && S.DecodedAt != Turn::Never)
+        Consider(S.Warp, S.DecodedAt, false, true);
+    SlotAt = First == Taker ? Slot : 0;
     Presented = State::Starved;
     InTurn = Turn(FirstAt, !FirstIsStarved);
     if (First == Count || FirstIsStarved)
@@ -129,6 +223,10 @@ void CoreClock::advanceInTurn(uint64_t Until) {
       return;
     }
     LastIssued = First;
+    if (Held && First == Holder)
+      for (unsigned N = 0; N != Count; ++N)
+        if (Held >> N & 1)
+          of(N).decodeNotBefore(SlotAt + 1, CoreCycle::Fetch);
     const bool IsSpawn = atSpawn(*this);
     InRun = true;
     advanceFront();
@@ -170,8 +268,8 @@ void CoreClock::arrive(const OpInfo &O, uint32_t Barrier, uint32_t Count) {
     WarpTime &W = of(Other);
     W.Blocked = false;
     W.Now = State::Starved;
-    W.Fetched = std::max(W.Fetched, Begun + std::max<unsigned>(O.Redirect, 1));
-    W.FetchWhy = CoreCycle::Barrier;
+    W.decodeNotBefore(Begun + std::max<unsigned>(O.Redirect, 1),
+                      CoreCycle::Barrier);
   }
   Arrived.clear();
 }

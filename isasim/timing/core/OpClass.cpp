@@ -136,7 +136,11 @@ static uint32_t redirectOf(Op Name, OpClass C, const CoreTiming &P) {
   case OpClass::Csr:
     return P.CsrCycles;
   case OpClass::Mask:
-    return Name == Op::VX_JOIN ? P.JoinCycles : P.SplitCycles;
+    if (Name != Op::VX_JOIN)
+      return P.SplitCycles;
+    // Where it takes no longer than any other it is done by the decoder, and
+    // the front end does not wait for it.
+    return P.JoinCycles == P.FetchInterval ? 1 : P.JoinCycles;
   case OpClass::Barrier:
     return P.SplitCycles;
   default:

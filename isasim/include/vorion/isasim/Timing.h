@@ -17,7 +17,7 @@ namespace vorion::isasim {
 /// Version of the timing model. Incremented by every change of modelled cycles;
 /// docs/model.md documents the changes, and test/timing has golden cycles of
 /// small runs.
-inline constexpr unsigned ClockVersion = 3;
+inline constexpr unsigned ClockVersion = 4;
 
 // A structure for each group of TimingParams.def, with its defaults.
 struct TimingGroups {
