@@ -3,7 +3,7 @@
 // JSON, driver and OpenCL follow from a record; docs/adding-a-counter.md.
 
 def WarpInstructions : CoreCounter<"warp_instructions", 0x4F60, "warp instructions retired">;
-def LaneInstructions : CoreCounter<"lane_instructions", 0x4F61, "the same times active lanes">;
+def LaneInstructions : CoreCounter<"lane_instructions", 0x4F61, "the same, multiplied by active lanes">;
 def Loads : CoreCounter<"loads", 0, "warp instructions that load">;
 def Stores : CoreCounter<"stores", 0, "warp instructions that store">;
 def Atomics : CoreCounter<"atomics", 0, "atomic warp instructions">;
@@ -17,7 +17,7 @@ defm VR_N_CLIPPED : RasterCounter<"clipped", 0xFD2, 0x4F64, "of these, those who
 defm VR_N_FRAGMENTS : RasterCounter<"fragments", 0xFD3, 0x4F65, "lane slots dispatched">;
 defm VR_N_BLENDS : RasterCounter<"blends", 0xFD4, 0x4F66, "of these, blended into a pixel">;
 defm VR_N_INTERSECTING : RasterCounter<"intersecting", 0xFD5, 0x4F67, "Gaussians fetched that span several tiles">;
-defm VR_N_TAILS : RasterCounter<"tails", 0xFE0, 0x4F68, "commands that went on in a pixel unit">;
-defm VR_N_TAIL_PIXELS : RasterCounter<"tail_pixels", 0xFE1, 0x4F69, "pixels that it took over">;
-defm VR_N_TAIL_VISITS : RasterCounter<"tail_visits", 0xFE2, 0x4F6A, "Gaussians that those examined">;
+defm VR_N_TAILS : RasterCounter<"tails", 0xFE0, 0x4F68, "commands handed over to a pixel unit">;
+defm VR_N_TAIL_PIXELS : RasterCounter<"tail_pixels", 0xFE1, 0x4F69, "pixels handed over">;
+defm VR_N_TAIL_VISITS : RasterCounter<"tail_visits", 0xFE2, 0x4F6A, "Gaussians examined by these">;
 defm VR_N_TAIL_BLENDS : RasterCounter<"tail_blends", 0xFE3, 0x4F6B, "of these, blended">;

@@ -7,24 +7,24 @@ def VxGaussian : Descriptor<"vx_gaussian", [
     DescField<"opacity", "f32", 1, "0 to 1">,
     DescField<"color", "f32", 3, "linear r, g, b">,
     DescField<"extent", "f32", 2, "half width and height of the box, px">,
-    DescField<"tag", "u32", 1, "Gaussian number, and VR_INTERSECT where it spans several tiles">
+    DescField<"tag", "u32", 1, "Gaussian index, with VR_INTERSECT if it spans several tiles">
   ], "One projected Gaussian as the rasterizer reads it.">;
 
 def VxTail : Descriptor<"vx_tail", [
     DescField<"list", "u32", 1, "address of the list's next entry">,
-    DescField<"count", "u32", 1, "entries left">,
+    DescField<"count", "u32", 1, "remaining entries">,
     DescField<"gaussians", "u32", 1, "address of the vx_gaussian records">,
     DescField<"options", "u32", 1, "vr_options">,
     DescField<"cutoff", "u32", 1, "vr_cutoff">,
     DescField<"tile_origin", "u32", 1, "vr_tile_origin">,
     DescField<"tile_shape", "u32", 1, "vr_tile_shape">,
     DescField<"ztile", "u32", 1, "vr_ztile">,
-    DescField<"output", "u32", 1, "address of the tile's first pixel, where the pixels' state lies">,
+    DescField<"output", "u32", 1, "address of the tile's first pixel, with the state of the pixels">,
     DescField<"output_pitch", "u32", 1, "vr_output_pitch">,
-    DescField<"core", "u32", 1, "core whose Raster Agent is told of the end">,
+    DescField<"core", "u32", 1, "core whose Raster Agent is notified of the end">,
     DescField<"live_count", "u32", 1, "pixels that are not saturated">,
-    DescField<"live", "u32", 128, "a bit each: column x of row y is bit x % 32 of word 2 y + x / 32">
-  ], "What a rasterizer hands to the pixel unit: a tile, the rest of its list, its live pixels.">;
+    DescField<"live", "u32", 128, "one bit per pixel: column x of row y is bit x % 32 of word 2 y + x / 32">
+  ], "Hand-over of a tile to the pixel unit: the rest of its list and its live pixels.">;
 
 def VxLaunch : Descriptor<"vx_launch", [
     DescField<"entry", "u32", 1, "work-group function">,
@@ -35,21 +35,21 @@ def VxLaunch : Descriptor<"vx_launch", [
     DescField<"global_offset", "u32", 3, "offset of the global ids">,
     DescField<"context", "u32", 1, "memory for values that live across barriers">,
     DescField<"context_stride", "u32", 1, "bytes of it for each core">,
-    DescField<"print_buffer", "u32", 1, "vx_print, and the text of printf behind it">,
-    DescField<"print_capacity", "u32", 1, "bytes of the text">,
-    DescField<"stack_bytes", "u32", 1, "stack of each lane, a power of two; 0 for the machine's usual size">,
-    DescField<"variables", "u32", 1, "variables of program scope, 0 for none">,
-    DescField<"enqueued_size", "u32", 3, "of the whole range: work-items of all groups but the last">,
-    DescField<"groups_before", "u32", 3, "groups of the whole range before the launch's first">,
+    DescField<"print_buffer", "u32", 1, "vx_print, followed by the text of printf">,
+    DescField<"print_capacity", "u32", 1, "maximum bytes of the text">,
+    DescField<"stack_bytes", "u32", 1, "stack of each lane, a power of two; 0 for the machine's default">,
+    DescField<"variables", "u32", 1, "program-scope variables, 0 for none">,
+    DescField<"enqueued_size", "u32", 3, "work-items of a group of the whole range, except the last">,
+    DescField<"groups_before", "u32", 3, "groups of the whole range before the first of the launch">,
     DescField<"all_groups", "u32", 3, "groups of the whole range">,
     DescField<"global_size", "u32", 3, "work-items of the whole range">,
-    DescField<"warps", "u32", 1, "warps of each core that run groups, each with a block of its own behind the one before">,
-    DescField<"local_stride", "u32", 1, "bytes of local memory from a warp's to the next one's">
-  ], "What a kernel launch hands to every warp (mscratch points to that of warp 0).">;
+    DescField<"warps", "u32", 1, "warps of each core that run groups, whose launch blocks follow each other">,
+    DescField<"local_stride", "u32", 1, "bytes from the local memory of a warp to that of the next">
+  ], "Launch block of a warp (mscratch points to that of warp 0).">;
 
 def VxPrint : Descriptor<"vx_print", [
-    DescField<"used", "u32", 1, "bytes asked for so far; above the capacity means text was dropped">
-  ], "How the print buffer begins, the part of a launch's own data that kernels write.">;
+    DescField<"used", "u32", 1, "bytes requested so far; text beyond the capacity was dropped">
+  ], "Head of the print buffer, the part of the launch data that kernels write.">;
 
 def VxKernel : Descriptor<"vx_kernel", [
     DescField<"name", "u32", 1, "address of the NUL-terminated name">,
@@ -61,53 +61,53 @@ def VxKernel : Descriptor<"vx_kernel", [
     DescField<"local_bytes", "u32", 1, "static local memory, from 0xffff0000 on">,
     DescField<"local_size", "u32", 3, "the group size it was compiled for, 0 for any">,
     DescField<"lanes", "u32", 1, "the lanes of a warp it was compiled for, 0 for any">,
-    DescField<"stack_bytes", "u32", 1, "stack that its deepest path of calls needs; written by vorion-link, 0 if not known">
+    DescField<"stack_bytes", "u32", 1, "stack required by its deepest call path; written by vorion-link, 0 if unknown">
   ], "One kernel of a program, in section vorion_kernels.">;
 
 def VxStack : Descriptor<"vx_stack", [
     DescField<"function", "u32", 1, "its address">,
-    DescField<"frame_bytes", "u32", 1, "stack that it takes itself">,
+    DescField<"frame_bytes", "u32", 1, "size of its own frame">,
     DescField<"flags", "u32", 1, "VX_STACK_*">,
-    DescField<"num_callees", "u32", 1, "functions that it calls, whose addresses follow">
-  ], "What a function takes of a lane's stack, in section vorion_stacks.">;
+    DescField<"num_callees", "u32", 1, "number of callees, whose addresses follow">
+  ], "Stack use of a function, in section vorion_stacks.">;
 
 def VxVariables : Descriptor<"vx_variables", [
     DescField<"entry", "u32", 1, "work-group function of the kernel">,
     DescField<"bytes", "u32", 1, "size of all variables">,
-    DescField<"alignment", "u32", 1, "of their address, a power of two">,
+    DescField<"alignment", "u32", 1, "alignment of their address, a power of two">,
     DescField<"contents", "u32", 1, "address of the initial bytes; zeros follow these">,
-    DescField<"contents_bytes", "u32", 1, "how many of them there are">,
+    DescField<"contents_bytes", "u32", 1, "number of initial bytes">,
     DescField<"pointers", "u32", 1, "address of num_pointers offsets of words">,
     DescField<"num_pointers", "u32", 1, "words to which the variables' address is added">
-  ], "The variables of program scope of a kernel that uses them, in section vorion_variables.">;
+  ], "The program-scope variables of a kernel that uses them, in section vorion_variables.">;
 
 def VxKernelArg : Descriptor<"vx_kernel_arg", [
     DescField<"name", "u32", 1, "address of the NUL-terminated name">,
     DescField<"kind", "u32", 1, "one of VX_ARG_*">,
     DescField<"offset", "u32", 1, "bytes from the start of the packed arguments">,
-    DescField<"size", "u32", 1, "bytes there">
+    DescField<"size", "u32", 1, "size in bytes">
   ], "One argument of a kernel.">;
 
-def : Constant<"VX_ARG_VALUE", 0, "Passed by value, of a type that is not said.">;
+def : Constant<"VX_ARG_VALUE", 0, "Passed by value, of unspecified type.">;
 def : Constant<"VX_ARG_GLOBAL", 1, "Pointer to global or constant memory.">;
 def : Constant<"VX_ARG_LOCAL", 2, "Pointer to local memory; the driver allocates it.">;
-def : Constant<"VX_ARG_INTEGER", 3, "A whole number, passed by value.">;
-def : Constant<"VX_ARG_FLOAT", 4, "A float of 32 bits, passed by value.">;
+def : Constant<"VX_ARG_INTEGER", 3, "Integer, passed by value.">;
+def : Constant<"VX_ARG_FLOAT", 4, "32-bit float, passed by value.">;
 
 def : Constant<"VX_STACK_INDIRECT", 1, "The function calls through pointers.">;
-def : Constant<"VX_STACK_REPEATS", 2, "What its frame has depends on the run.">;
+def : Constant<"VX_STACK_REPEATS", 2, "The size of its frame depends on the run.">;
 def : Constant<"VX_STACK_ADDRESS_TAKEN", 4, "Calls through pointers may reach it.">;
 
 def : Constant<"VX_IO_CONSOLE", 0x40, "Store: a byte for the console.">;
 def : Constant<"VX_IO_EXIT", 0x44, "Store: exit code.">;
-def : Constant<"VX_IO_RASTER", 0x1000, "Raster CSRs of core 0; VX_IO_RASTER_STRIDE bytes a core.">;
-def : Constant<"VX_IO_RASTER_STRIDE", 0x100, "Bytes of the I/O window a core.">;
+def : Constant<"VX_IO_RASTER", 0x1000, "Raster CSRs of core 0; VX_IO_RASTER_STRIDE bytes per core.">;
+def : Constant<"VX_IO_RASTER_STRIDE", 0x100, "Bytes of the I/O window per core.">;
 def : Constant<"VX_GLOBAL_BASE", 0x10000, "First byte of global memory.">;
 def : Constant<"VX_IMAGE_BASE", 0x80000000, "First byte of the program image.">;
 def : Constant<"VX_IMAGE_SIZE", 0x1000000, "Largest program image.">;
-def : Constant<"VX_HIGH_BASE", 0x81000000, "First byte behind the image: global memory that does not fit in front of it.">;
+def : Constant<"VX_HIGH_BASE", 0x81000000, "First byte after the image: global memory that does not fit below it.">;
 def : Constant<"VX_STACK_TOP", 0xFFFF0000, "End of the stacks.">;
-def : Constant<"VX_REPEAT_BYTES", 0x8000, "Stack for what calls repeat: recursion, and calls through pointers.">;
+def : Constant<"VX_REPEAT_BYTES", 0x8000, "Stack reserved for recursion and calls through pointers.">;
 def : Constant<"VX_MAX_STACK", 0x1000000, "Largest stack of a lane.">;
-def : Constant<"VX_MAX_STACK_ROOM", 0xe20000, "What a program may use of it: start-up code leaves up to 15/128 unused.">;
+def : Constant<"VX_MAX_STACK_ROOM", 0xe20000, "Usable part of it: start-up code leaves up to 15/128 unused.">;
 def : Constant<"VX_LOCAL_BASE", 0xFFFF0000, "First byte of local memory.">;

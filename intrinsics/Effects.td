@@ -6,20 +6,20 @@
 class Effect<string doc> { string Doc = doc; }
 def ReadsLanes : Effect<"reads operands of other active lanes, or which lanes are active">;
 def ChangesMask : Effect<"changes the thread mask or the divergence stack">;
-def Jumps : Effect<"may continue elsewhere than at the next instruction, or always traps">;
+def Jumps : Effect<"may transfer control, or always traps">;
 def ReadsMemory : Effect<"reads memory">;
 def WritesMemory : Effect<"writes memory">;
-def AccessesCsr : Effect<"reads or writes the CSR that it names, whose record tells the rest">;
-def Orders : Effect<"keeps its place among memory accesses and among instructions with this effect">;
+def AccessesCsr : Effect<"reads or writes a CSR, whose record defines further effects">;
+def Orders : Effect<"is not reordered with memory accesses or other instructions with this effect">;
 
 // In which active lanes rd is defined.
 class Definedness<string doc> { string Doc = doc; }
 def NoResult : Definedness<"has no rd">;
 def Always : Definedness<"in every lane">;
-def OwnOperands : Definedness<"where the lane's own operands are, or where one of them alone decides the result">;
+def OwnOperands : Definedness<"in lanes whose operands are defined, or in which one operand determines the result">;
 def EveryLane : Definedness<"in every lane if rs1 is defined in every active lane, else in none">;
 def AnyLane : Definedness<"in every lane if rs1 is defined in an active lane, else in none">;
-def FromMemory : Definedness<"where the bytes read are">;
+def FromMemory : Definedness<"in lanes that read defined bytes">;
 
 // An operand on which the instruction acts, so that it must be defined: in every
 // active lane, or in the last one.

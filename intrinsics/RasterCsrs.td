@@ -4,30 +4,30 @@
 
 let Extension = "xvorion" in {
 
-def VR_STATUS : Csr<"vr_status", 0x7C0, Agent, ReadOnly, 1, "State of the agent's commands; a read that says done is an acquire."> {
+def VR_STATUS : Csr<"vr_status", 0x7C0, Agent, ReadOnly, 1, "State of the agent's commands; a read that is not busy is an acquire."> {
   let Fields = [CsrField<"busy", 0, 1, "commands are queued or running">,
-                CsrField<"tail", 1, 1, "of these, some in the pixel unit">,
+                CsrField<"tail", 1, 1, "some of these are in the pixel unit">,
                 CsrField<"code", 8, 8, "status code of the first failed command since the last vr_wait, 0 if none">];
 }
 def VR_START : Csr<"vr_start", 0x7C1, Agent, Scalar, 1, "A write queues the bank's content as a command (the value is ignored) and is a release of the core's earlier stores; a full queue stalls the write.">;
 def VR_WAIT : Csr<"vr_wait", 0x7C2, Agent, ReadOnly, 1, "A read waits for the agent's commands, is an acquire, returns the status code of the first failed one (0 if none) and clears it.">;
-def VR_MODE : BankCsr<"vr_mode", 0x7C3, "What a command does."> {
-  let Fields = [CsrField<"backward", 0, 1, "0 render, 1 gradients of what was rendered, handed over through vr_grad_*">,
+def VR_MODE : BankCsr<"vr_mode", 0x7C3, "Operation of a command."> {
+  let Fields = [CsrField<"backward", 0, 1, "0 render, 1 gradients of the rendered tile, read through vr_grad_*">,
                 CsrField<"pushed", 1, 1, "0 index list in memory, 1 descriptors pushed with vr_push">,
-                CsrField<"drain", 2, 1, "0 pixels go to vr_output, 1 they stay for vr_pixel_*">,
+                CsrField<"drain", 2, 1, "0 pixels are written to vr_output, 1 they are kept for vr_pixel_*">,
                 CsrField<"keep_last", 3, 1, "a render stores each pixel's last contributor at vr_last">,
-                CsrField<"keep_counts", 4, 1, "a render stores at vr_last, 8-byte aligned, how many Gaussians and fragments it took, two words of at most 2^32 - 1">];
+                CsrField<"keep_counts", 4, 1, "a render stores its numbers of Gaussians and fragments at vr_last, 8-byte aligned, two words of at most 2^32 - 1">];
 }
 def VR_OPTIONS : BankCsr<"vr_options", 0x7C4, "Datapath options."> {
   let Fields = [CsrField<"exp", 0, 4, "exponential unit, VR_EXP_*; docs/lane-units.md#exponential-units">,
                 CsrField<"stop_at_equal", 4, 1, "0 saturated at T' < cutoff (INRIA), 1 at T' <= cutoff (gsplat)">,
                 CsrField<"skip_saturated", 5, 1, "dispatch gives no lane slot to saturated pixels">,
                 CsrField<"blend", 6, 2, "blend arithmetic, VR_BLEND_*; docs/abi.md#rasterizer">,
-                CsrField<"alpha_cutoff", 8, 2, "smallest alpha that is blended: 2^this / 255">];
+                CsrField<"alpha_cutoff", 8, 2, "smallest alpha that is blended: 2^value / 255">];
 }
 def VR_CUTOFF : BankCsr<"vr_cutoff", 0x7C5, "Transmittance cut-off, float in [0, 1).">;
 def VR_GAUSSIANS : BankCsr<"vr_gaussians", 0x7C6, "Address of the vx_gaussian records, 16-byte aligned.">;
-def VR_LIST : BankCsr<"vr_list", 0x7C7, "Address of the depth-sorted list, 4-byte aligned: a record number an entry, and VR_INTERSECT where the Gaussian spans several tiles.">;
+def VR_LIST : BankCsr<"vr_list", 0x7C7, "Address of the depth-sorted list, 4-byte aligned. An entry is the index of a record, with VR_INTERSECT if the Gaussian spans several tiles.">;
 def VR_COUNT : BankCsr<"vr_count", 0x7C8, "Entries of the list; 0 is a valid empty tile.">;
 def VR_TILE_ORIGIN : BankCsr<"vr_tile_origin", 0x7C9, "Picture coordinates of the tile's first pixel."> {
   let Fields = [CsrField<"x", 0, 16, "column">, CsrField<"y", 16, 16, "row">];
@@ -35,19 +35,19 @@ def VR_TILE_ORIGIN : BankCsr<"vr_tile_origin", 0x7C9, "Picture coordinates of th
 def VR_TILE_SHAPE : BankCsr<"vr_tile_shape", 0x7CA, "Pixels of the tile, 1 to 64 each."> {
   let Fields = [CsrField<"width", 0, 16, "columns">, CsrField<"height", 16, 16, "rows">];
 }
-def VR_ZTILE : BankCsr<"vr_ztile", 0x7CB, "Which part of the tile's list this command is."> {
-  let Fields = [CsrField<"index", 0, 16, "number of the part">, CsrField<"count", 16, 16, "parts; 0 or 1 for the whole list">];
+def VR_ZTILE : BankCsr<"vr_ztile", 0x7CB, "Depth segment of the tile's list."> {
+  let Fields = [CsrField<"index", 0, 16, "index of the segment">, CsrField<"count", 16, 16, "number of segments; 0 or 1 for the whole list">];
 }
 def VR_OUTPUT : BankCsr<"vr_output", 0x7CC, "Address of the tile's first pixel (4 floats: r, g, b, T), 16-byte aligned.">;
 def VR_OUTPUT_PITCH : BankCsr<"vr_output_pitch", 0x7CD, "Bytes from one pixel row to the next, a multiple of 16.">;
 
 // Training (paper, "Training"; docs/rasterizer.md#the-backward-mode).
-def VR_LAST : BankCsr<"vr_last", 0x7CE, "Address of the word of the tile's first pixel, 4-byte aligned: how many entries of the list up to and with the last one blended, 0 if none. Rows are vr_output_pitch / 4 bytes apart. keep_last writes, backward reads it. With keep_counts of its two words.">;
-def VR_UPSTREAM : BankCsr<"vr_upstream", 0x7CF, "Backward: address of the tile's first pixel's gradient (4 floats: dL/dr, dL/dg, dL/db, dL/dT of the final transmittance), 16-byte aligned, rows vr_output_pitch apart.">;
+def VR_LAST : BankCsr<"vr_last", 0x7CE, "Address of the word of the tile's first pixel, 4-byte aligned: number of list entries up to and including the last blended one, 0 if none. Rows are vr_output_pitch / 4 bytes apart. keep_last writes it, backward reads it. With keep_counts, address of the two words.">;
+def VR_UPSTREAM : BankCsr<"vr_upstream", 0x7CF, "Backward: address of the gradient of the tile's first pixel (4 floats: dL/dr, dL/dg, dL/db, dL/dT of the final transmittance), 16-byte aligned, rows vr_output_pitch apart.">;
 def VR_BACKWARD : BankCsr<"vr_backward", 0x7EB, "Options of the backward mode."> {
   let Fields = [CsrField<"reciprocal", 0, 3, "unit for 1/(1 - alpha), VR_RECIPROCAL_*; docs/lane-units.md#reciprocal-units">,
-                CsrField<"clamp_stops", 3, 1, "no gradient but the colour's where alpha is held at 0.99 (gsplat)">,
-                CsrField<"in_rows", 4, 1, "gather adds the rows of a tile one after the other, not as a tree">];
+                CsrField<"clamp_stops", 3, 1, "only the colour has a gradient where alpha is clamped to 0.99 (gsplat)">,
+                CsrField<"in_rows", 4, 1, "gather sums the rows of a tile sequentially, not as a tree">];
 }
 
 // A pushed descriptor: the lane writes its fields, then vr_push.
@@ -62,14 +62,14 @@ def VR_G_GREEN : Csr<"vr_g_green", 0x7D7, Lane, PerLane, 0, "Float: colour, gree
 def VR_G_BLUE : Csr<"vr_g_blue", 0x7D8, Lane, PerLane, 0, "Float: colour, blue.">;
 def VR_G_EXTENT_X : Csr<"vr_g_extent_x", 0x7D9, Lane, PerLane, 0, "Float: half width of the box.">;
 def VR_G_EXTENT_Y : Csr<"vr_g_extent_y", 0x7DA, Lane, PerLane, 0, "Float: half height of the box.">;
-def VR_G_TAG : Csr<"vr_g_tag", 0x7DB, Lane, PerLane, 0, "Gaussian number, and VR_INTERSECT where it spans several tiles.">;
+def VR_G_TAG : Csr<"vr_g_tag", 0x7DB, Lane, PerLane, 0, "Gaussian index, with VR_INTERSECT if it spans several tiles.">;
 def VR_PUSH : Csr<"vr_push", 0x7DC, Agent, Push, 1, "A write appends one descriptor per active lane, in lane order (the value is ignored).">;
 
 // Hand-over of a list's tail to the pixel unit of the cluster (paper, "Pixel
 // unit"; docs/rasterizer.md#the-pixel-unit).
-def VR_TAIL_COUNT : BankCsr<"vr_tail_count", 0x7E8, "The command goes on in the pixel unit once at most so many entries of its list are left; 0: never for this reason.">;
-def VR_TAIL_SHARE : BankCsr<"vr_tail_share", 0x7E9, "The command goes on in the pixel unit once this share of the tile's pixels, in 1/VR_TAIL_WHOLE, is saturated; 0: never for this reason.">;
-def VR_TAIL_RECORD : BankCsr<"vr_tail_record", 0x7EA, "Address of the vx_tail that a hand-over fills, 16-byte aligned; not used while both reasons are 0.">;
+def VR_TAIL_COUNT : BankCsr<"vr_tail_count", 0x7E8, "The command is handed over to the pixel unit once at most this number of entries of its list remains; 0 disables this condition.">;
+def VR_TAIL_SHARE : BankCsr<"vr_tail_share", 0x7E9, "The command is handed over to the pixel unit once this fraction of the tile's pixels, in units of 1/VR_TAIL_WHOLE, is saturated; 0 disables this condition.">;
+def VR_TAIL_RECORD : BankCsr<"vr_tail_record", 0x7EA, "Address of the vx_tail that a hand-over fills, 16-byte aligned; unused if both conditions are disabled.">;
 
 // Draining a tile by the core that issued it.
 def VR_PIXEL_INDEX : Csr<"vr_pixel_index", 0x7E0, Lane, PerLane, 0, "Pixel of the drained tile: row * width + column.">;
@@ -79,11 +79,11 @@ def VR_PIXEL_B : Csr<"vr_pixel_b", 0x7E3, Lane, ReadOnly, 0, "Float: blue of pix
 def VR_PIXEL_T : Csr<"vr_pixel_t", 0x7E4, Lane, ReadOnly, 0, "Float: transmittance of pixel vr_pixel_index.">;
 
 // What a backward command hands over, 16 Gaussians at a time, one a lane.
-def VR_GRAD_NEXT : Csr<"vr_grad_next", 0x7F0, Agent, ReadOnly, 1, "A read waits for the next batch of the agent's backward commands and makes it the one that vr_grad_* show; 0 at the end of each command, and where none is queued."> {
+def VR_GRAD_NEXT : Csr<"vr_grad_next", 0x7F0, Agent, ReadOnly, 1, "A read waits for the next batch of the agent's backward commands and selects it for vr_grad_*; 0 at the end of each command, and if none is queued."> {
   let Fields = [CsrField<"count", 0, 5, "Gaussians of the batch, in lanes 0 to count - 1">,
                 CsrField<"batch", 5, 27, "lane i has entry 16 batch + i of the command's list">];
 }
-def VR_GRAD_TAG : Csr<"vr_grad_tag", 0x7F1, Lane, ReadOnly, 0, "Tag of the lane's Gaussian; 0 like all of vr_grad_* in lanes that have none.">;
+def VR_GRAD_TAG : Csr<"vr_grad_tag", 0x7F1, Lane, ReadOnly, 0, "Tag of the lane's Gaussian; all vr_grad_* are 0 in lanes without one.">;
 def VR_GRAD_R : Csr<"vr_grad_r", 0x7F2, Lane, ReadOnly, 0, "Float: dL/d(red), the sum of alpha T dL/dr over the tile.">;
 def VR_GRAD_G : Csr<"vr_grad_g", 0x7F3, Lane, ReadOnly, 0, "Float: dL/d(green).">;
 def VR_GRAD_B : Csr<"vr_grad_b", 0x7F4, Lane, ReadOnly, 0, "Float: dL/d(blue).">;
@@ -102,13 +102,13 @@ def : Constant<"VR_MISALIGNED", 2, "An address or the pitch is misaligned.">;
 def : Constant<"VR_UNMAPPED", 3, "An address range is not global memory (local memory included).">;
 def : Constant<"VR_BAD_COUNT", 4, "vr_count above VR_MAX_COUNT, or more pushes than VR_MAX_PUSHED.">;
 def : Constant<"VR_NAN", 5, "A descriptor holds a NaN.">;
-def : Constant<"VR_BAD_MODE", 6, "vr_mode, vr_options or vr_ztile asks for what this machine does not have.">;
+def : Constant<"VR_BAD_MODE", 6, "vr_mode, vr_options or vr_ztile requests what this machine does not support.">;
 def : Constant<"VR_BAD_CUTOFF", 7, "vr_cutoff is not in [0, 1).">;
-def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over asked of a command that drains, takes pushed descriptors, keeps last contributors or goes backward.">;
+def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over is requested for a command that drains, has pushed descriptors, keeps last contributors or is backward.">;
 def : Constant<"VR_TAIL_WHOLE", 65536, "vr_tail_share of a whole tile.">;
 def : Constant<"VR_INTERSECT", 0x80000000, "Bit of a list entry and of a record's tag: the Gaussian spans several tiles.">;
 def : Constant<"VR_MAX_COUNT", 0x1000000, "Largest list of one command.">;
-def : Constant<"VR_MAX_PUSHED", 4096, "Descriptors that the push buffer holds.">;
+def : Constant<"VR_MAX_PUSHED", 4096, "Capacity of the push buffer in descriptors.">;
 def : Constant<"VR_MAX_TILE", 64, "Largest tile width and height.">;
 def : Constant<"VR_MAX_BACKWARD", 2048, "Pixels of the largest backward tile.">;
-def : Constant<"VR_GRAD_LANES", 16, "Gaussians that a backward command hands over at a time.">;
+def : Constant<"VR_GRAD_LANES", 16, "Gaussians of a batch of a backward command.">;

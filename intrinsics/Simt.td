@@ -9,7 +9,7 @@ def VX_WSPAWN : SimtInstruction<"vx_wspawn", 1, 0, "", "rs1, rs2", "none", "void
   "Warps 1 to rs1-1 start at rs2 with lane 0 active.">;
 let Effects = Split in {
 def VX_SPLIT : SimtInstruction<"vx_split", 2, 0, "rd", "rs1", "uniform", "uint vx_split(uint predicate)", LatencyMask,
-  "rd = depth of the divergence stack before. Bit 0 of rs1 is each lane's predicate. If active lanes disagree, push the mask and the next pc and go on with the lanes whose predicate is true; otherwise nothing is pushed.">;
+  "rd = depth of the divergence stack before the split. Bit 0 of rs1 is the predicate of each lane. If it differs among active lanes, push the mask and the next pc, and continue with the lanes whose predicate is true; otherwise push nothing.">;
 def VX_SPLIT_N : SimtInstruction<"vx_split_n", 2, 0, "rd", "rs1", "uniform", "uint vx_split_n(uint predicate)", LatencyMask,
   "As vx_split with the predicate negated (encoded with rs2 = x1)."> {
   let Match = 0x0010200B;
@@ -17,7 +17,7 @@ def VX_SPLIT_N : SimtInstruction<"vx_split_n", 2, 0, "rd", "rs1", "uniform", "ui
 }
 let Effects = Join in
 def VX_JOIN : SimtInstruction<"vx_join", 3, 0, "", "rs1", "none", "void vx_join(uint depth)", LatencyMask,
-  "No effect if rs1 of the last active lane equals the depth of the divergence stack; else the first time go on with the other side at the pc that the split saved, the second time restore the mask and pop.">;
+  "No effect if rs1 of the last active lane equals the depth of the divergence stack. Otherwise the first join of a split continues with its other lanes at the saved pc, and the second restores the mask and pops.">;
 let Effects = Warps in
 def VX_BAR : SimtInstruction<"vx_bar", 4, 0, "", "rs1, rs2", "none", "void vx_bar(uint id, uint warps)", LatencyBarrier,
   "Wait until rs2 warps (cores, if bit 31 of rs1 is set) have arrived at barrier rs1. Traps if not all lanes of the last vx_tmc are active.">;
@@ -61,4 +61,4 @@ class CompilerIntrinsic<string divergence, string prototype, string doc> {
   string Doc = doc;
 }
 def VX_UNIFORM : CompilerIntrinsic<"uniform", "uint vx_uniform(uint value)",
-  "The value itself, which the caller asserts to be the same in every active lane; branches on it are not split.">;
+  "The value itself, which the caller asserts to be equal in all active lanes; branches on it need no split.">;
