@@ -19,6 +19,7 @@
 
 #include <span>
 
+// clang's name. NOLINTNEXTLINE(readability-identifier-naming)
 int clang_main(int Argc, char **Argv, const llvm::ToolContext &Context);
 
 namespace vorion {
