@@ -24,6 +24,8 @@ constexpr uint32_t FlagRve = 0x8;
 constexpr const char *KernelSection = "vorion_kernels";
 constexpr const char *VariableSection = "vorion_variables";
 constexpr const char *WarpsSection = "vorion_warps";
+/// What runs around main() (libdevice/cxx/static_objects.c): kernels never do.
+constexpr const char *StaticObjectsSection = "vorion_static_objects";
 constexpr const char *AtomicsSection = "vorion_atomics";
 constexpr uint32_t MaxArgs = 4096; ///< more than OpenCL's 256 KiB could hold
 constexpr uint32_t MaxArgsBytes = 256 << 10;
@@ -224,7 +226,8 @@ std::string ImageParser::readSections() {
     for (const auto &[Name, Table] :
          {std::pair(KernelSection, &KernelTable),
           std::pair(VariableSection, &VariableTable),
-          std::pair(WarpsSection, &WarpsCode)})
+          std::pair(WarpsSection, &WarpsCode),
+          std::pair(StaticObjectsSection, &StaticObjectsCode)})
       if (IsCalled(Name) && (S->sh_flags & SHF_ALLOC))
         *Table = {S->sh_addr, S->sh_addr + S->sh_size};
     if (IsCalled(AtomicsSection))
@@ -280,6 +283,8 @@ bool ImageParser::needsCoreAlone() const {
   };
   for (const Image::Segment &S : Result->Segments)
     for (size_t At = 0; S.Executable && At + 4 <= S.Bytes.size(); At += 4) {
+      if (StaticObjectsCode.contains(S.Address + static_cast<uint32_t>(At)))
+        continue;
       uint32_t Word = 0;
       std::memcpy(&Word, &S.Bytes[At], sizeof(Word));
       if (Needs(Word))

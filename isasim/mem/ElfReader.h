@@ -22,6 +22,9 @@ private:
   struct Range {
     uint32_t Lo = 0, Hi = 0;
     uint32_t bytes() const { return Hi - Lo; }
+    bool contains(uint32_t Address) const {
+      return Address >= Lo && Address < Hi;
+    }
   };
 
   // Each step returns what is wrong, or an empty string.
@@ -56,7 +59,7 @@ private:
   std::span<const std::byte> File;
   std::shared_ptr<Image> Result;
   Elf32_Ehdr Header{};
-  Range KernelTable, VariableTable, WarpsCode;
+  Range KernelTable, VariableTable, WarpsCode, StaticObjectsCode;
   size_t NameBytes = 0;      ///< of names read so far
   size_t NumArgs = 0;        ///< of kernels read so far
   uint64_t PointerBytes = 0; ///< of tables of variables read so far

@@ -43,6 +43,12 @@ std::optional<Error> fileError(const std::string &Name,
   if (std::string Cache = lineFrom(CL_KERNEL_CACHE_PROBLEM_VORION, Log);
       !Cache.empty())
     return Error{"", std::move(Cache)};
+  if (const std::string NoCompiler =
+          lineFrom("cannot find bin/vorion-compiler", Log);
+      !NoCompiler.empty())
+    return Error{"",
+                 fmt::format("kernel program '{}' cannot be compiled: {} {}",
+                             Name, NoCompiler, SeeDoctor)};
   constexpr std::string_view Missing = "'vorion.h' file not found";
   for (const std::string_view Words :
        {std::string_view("cannot open file '"),

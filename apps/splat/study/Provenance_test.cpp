@@ -102,7 +102,7 @@ TEST(Provenance, AChangedProgramIsAnother) {
   std::filesystem::create_directories(F.path("lib/vorion"));
   setenv("VORION_ROOT", F.path("").c_str(), 1);
   const auto Programs = [] { return commonProvenance({})->at("programs"); };
-  F.write("bin/vorion-clang", "a");
+  F.write("bin/vorion-compiler", "a");
   F.write("lib/vorion/libdevice.a", "b");
   const std::string Before = Programs();
   EXPECT_EQ(Programs(), Before);
@@ -110,13 +110,13 @@ TEST(Provenance, AChangedProgramIsAnother) {
   EXPECT_NE(Programs(), Before);
   F.write("lib/vorion/libdevice.a", "b");
   EXPECT_EQ(Programs(), Before);
-  F.write("bin/vorion-clang", "b");
+  F.write("bin/vorion-compiler", "b");
   EXPECT_NE(Programs(), Before);
   // Wherever it changed, also in several words at once, and in its length.
   const std::string Content(21, 'x');
   std::set<std::string> Seen;
   const auto Add = [&](const std::string &Changed) {
-    F.write("bin/vorion-clang", Changed);
+    F.write("bin/vorion-compiler", Changed);
     EXPECT_TRUE(Seen.insert(Programs()).second) << Changed;
   };
   Add(Content);
