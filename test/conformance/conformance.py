@@ -78,8 +78,8 @@ def platform_files():
     root = os.environ.get("VORION_ROOT")
     if not root:
         raise Problem("VORION_ROOT is not set, expected scripts/env.sh to be sourced")
-    patterns = ("pocl/lib/libvorion-pocl*.so", "pocl/share/pocl/*.bc", "bin/vorion-clang", "bin/vorion-link", "lib/libvorion-runtime.so",
-                "lib/vorion/*")
+    patterns = ("pocl/lib/libvorion-pocl*.so", "pocl/share/pocl/*.bc", "bin/vorion-compiler", "bin/vorion-clang", "bin/vorion-link",
+                "lib/libvorion-runtime.so", "lib/vorion/*")
     return sorted(path for pattern in patterns for path in glob.glob(os.path.join(root, pattern))
                   if os.path.isfile(path))
 
