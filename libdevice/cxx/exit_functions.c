@@ -35,9 +35,14 @@ int atexit(void (*function)(void)) {
   return __cxa_atexit(run_plain, (void *)function, NULL);
 }
 
+/* A function that one of them registers runs next. */
 static void run_all(void) {
-  for (uint32_t i = count < MOST ? count : MOST; i != 0; --i)
-    functions[i - 1].run(functions[i - 1].object);
+  if (count > MOST)
+    count = MOST;
+  while (count != 0) {
+    const uint32_t last = --count;
+    functions[last].run(functions[last].object);
+  }
 }
 
 /* The first of the program's destructors (start/vorion.ld). */

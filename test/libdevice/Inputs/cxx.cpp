@@ -77,7 +77,13 @@ int main() {
   unsigned Hart = 0;
 #endif
   if (Hart == 0) {
-    atexit([] { printf("at exit\n"); });
+    atexit([] {
+      printf("at exit\n");
+      atexit([] {
+        static Named Late("late", 1);
+        printf("registered at exit\n");
+      });
+    });
     Shape *Shapes[] = {new Square(3), new Banner};
     for (Shape *S : Shapes)
       printf("area %d\n", S->area());
