@@ -42,21 +42,25 @@ def compiler_folder():
         ["which", "vorion-clang"], check=True, capture_output=True, text=True).stdout.strip()))
 
 
+def assembled(folder, source):
+    """The object of an assembly file, in \\p folder."""
+    path = os.path.join(folder, os.path.basename(source) + ".o")
+    subprocess.run(["vorion-clang", MARCH, "-c", source, "-o", path], check=True)
+    return path
+
+
+def linked(objects, program):
+    """Links \\p objects to \\p program."""
+    script = os.path.join(compiler_folder(), "lib", "vorion", "vorion.ld")
+    subprocess.run(["ld.lld-19", "-T", script, *objects, "-o", program], check=True)
+    return program
+
+
 def build(folder, kernels):
     """{kernel: its program}, in \\p folder."""
-    def assembled(source):
-        path = os.path.join(folder, os.path.basename(source) + ".o")
-        subprocess.run(["vorion-clang", MARCH, "-c", os.path.join(HERE, source), "-o", path], check=True)
-        return path
-    start, inputs = assembled("start.s"), assembled("inputs.s")
-    script = os.path.join(compiler_folder(), "lib", "vorion", "vorion.ld")
-    programs = {}
-    for kernel in kernels:
-        programs[kernel] = os.path.join(folder, kernel + ".elf")
-        code = assembled(os.path.join("compiled", kernel + ".s"))
-        subprocess.run(["ld.lld-19", "-T", script, start, code, inputs, "-o", programs[kernel]],
-                       check=True)
-    return programs
+    start, inputs = (assembled(folder, os.path.join(HERE, source)) for source in ("start.s", "inputs.s"))
+    return {kernel: linked([start, assembled(folder, os.path.join(HERE, "compiled", kernel + ".s")), inputs],
+                           os.path.join(folder, kernel + ".elf")) for kernel in kernels}
 
 
 def hash_of(data):

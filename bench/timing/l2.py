@@ -15,7 +15,6 @@ their geometric mean within 5 %, 1 not so, 2 usage
 import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -63,12 +62,7 @@ def memory_table(file):
 
 def build(folder):
     """{(loop, iterations): its program}, in \\p folder."""
-    def assembled(source, name):
-        path = os.path.join(folder, name + ".o")
-        subprocess.run(["vorion-clang", kernels.MARCH, "-c", source, "-o", path], check=True)
-        return path
-    start = assembled(os.path.join(HERE, "kernels", "start.s"), "start")
-    script = os.path.join(kernels.compiler_folder(), "lib", "vorion", "vorion.ld")
+    start = kernels.assembled(folder, os.path.join(HERE, "kernels", "start.s"))
     programs = {}
     for loop in l2_loops.LOOPS:
         for iterations in l2_loops.ITERATIONS:
@@ -76,8 +70,8 @@ def build(folder):
             source = os.path.join(folder, name + ".s")
             with open(source, "w") as file:
                 file.write(l2_loops.text(loop, iterations))
-            programs[loop, iterations] = os.path.join(folder, name + ".elf")
-            subprocess.run(["ld.lld-19", "-T", script, start, assembled(source, name), "-o", programs[loop, iterations]], check=True)
+            programs[loop, iterations] = kernels.linked([start, kernels.assembled(folder, source)],
+                                                        os.path.join(folder, name + ".elf"))
     return programs
 
 

@@ -14,7 +14,6 @@ import argparse
 import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -41,15 +40,12 @@ def placed(text):
     return text
 
 
-def assembled(folder, source):
-    """The object of \p source."""
-    stem = os.path.join(folder, os.path.basename(os.path.dirname(source)) + "-" + os.path.basename(source))
-    with open(source) as file:
-        text = placed(file.read())
-    with open(stem, "w") as file:
-        file.write(text)
-    subprocess.run(["vorion-clang", kernels.MARCH, "-c", stem, "-o", stem + ".o"], check=True)
-    return stem + ".o"
+def placed_copy(folder, source):
+    """A copy of \\p source with our local memory. Parts of both folders have equal names."""
+    copy = os.path.join(folder, os.path.basename(os.path.dirname(source)) + "-" + os.path.basename(source))
+    with open(source) as file, open(copy, "w") as out:
+        out.write(placed(file.read()))
+    return copy
 
 
 def linked(folder, references, name):
@@ -58,20 +54,18 @@ def linked(folder, references, name):
     sources = [os.path.join(here, "start.s"), os.path.join(here, "compiled", name + ".s"), os.path.join(here, "inputs.s")]
     if name.startswith("own_"):
         sources = [os.path.join(own, part) for part in ("start.s", name + ".s", "inputs.s")]
-    program = os.path.join(folder, name + ".elf")
-    script = os.path.join(kernels.compiler_folder(), "lib", "vorion", "vorion.ld")
-    subprocess.run(["ld.lld-19", "-T", script, *(assembled(folder, s) for s in sources), "-o", program], check=True)
-    return program
+    return kernels.linked([kernels.assembled(folder, placed_copy(folder, source)) for source in sources],
+                          os.path.join(folder, name + ".elf"))
 
 
 class Table:
     """Rows of a name and, for each number of warps, our cycles, the RTL's and the error."""
 
-    def __init__(self, what, limit):
-        self.what, self.limit, self.wrong = what, limit, []
+    def __init__(self, program, what, limit):
+        self.limit, self.wrong = limit, []
         self.ratios = {warps: [] for warps in WARPS}
         print(f"\n{what} on `{PRESET}` beside the RTL, 1, 2 and 4 warps:\n")
-        print(f"| {what.split()[0]} |" + " ours | RTL | error |" * len(WARPS))
+        print(f"| {program} |" + " ours | RTL | error |" * len(WARPS))
         print("|---|" + "--:|--:|--:|" * len(WARPS))
 
     def row(self, name, cells, comparable=True):
@@ -107,14 +101,14 @@ def main():
     with open(os.path.join(references, "vortex_core_cpi.json")) as file:
         named = {kernel["name"]: kernel["assembly"] for kernel in json.load(file)["kernels"]}
     with tempfile.TemporaryDirectory() as folder:
-        loops = Table("loops, cycles of an iteration,", OF_LOOP)
+        loops = Table("loop", "Cycles of an iteration", OF_LOOP)
         for loop in known["loops"]:
             loop["assembly"] = placed(loop.get("assembly") or named[loop["name"]])
             loops.row(loop["name"],
                       {w: (cores.per_iteration(folder, loop, PRESET, int(w), CHANGES)[0], theirs)
                        for w, theirs in loop["cycles_per_iteration"].items()}, loop["comparable"])
         loops.mean()
-        whole = Table("kernels, cycles of a whole run,", OF_KERNEL)
+        whole = Table("kernel", "Cycles of a whole kernel", OF_KERNEL)
         wrong, names = loops.wrong, []
         for kernel in known["kernels"]:
             program = linked(folder, references, kernel["name"])

@@ -272,7 +272,7 @@ const Pattern SharedBlocks[] = {
      "if (*again == -a) goto LABEL; } goto not_LABEL; LABEL: CALL "
      "not_LABEL:;",
      [](int32_t X) { return X >= -3 && X < 16; }},
-    // In each of three rounds, of which the last one counts.
+    // In each of three rounds; the result of the last round is compared.
     {"for (int a = 0; a < 3; ++a) { if (x & 2) { if (*again & 4) continue; } "
      "CALL }",
      [](int32_t X) { return (X & 2) == 0 || (X & 4) == 0; }},

@@ -138,7 +138,7 @@ public:
   const Device &device() const { return Dev; }
 
 private:
-  /// Null if nobody is told of progress.
+  /// Null if progress is not reported.
   std::unique_ptr<CompileNotice>
   noticeOf(const std::string &What, std::function<bool()> IsCompiling) const;
 

@@ -6,7 +6,7 @@
 
 namespace vorion::isasim {
 
-/// The same, with the length of the queue for \p Warps warps.
+/// \p P with the length of the load/store queue of a core of \p Warps warps.
 static CoreTiming forWarps(CoreTiming P, size_t Warps) {
   P.LsuQueue =
       std::max(P.LsuQueue, P.LsuQueuePerWarp * static_cast<uint32_t>(Warps));
@@ -25,7 +25,7 @@ CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
       Others(Traces.size()), LocalBarriers(Barriers),
       InFlight(ToMemory, Timing.LsuQueue + 1), Accesses(Timing.LsuQueue),
       L1(Timing.DcacheKib, Timing.DcacheWays),
-      Doors(L1.exists() ? Timing.DcacheBanks : 0, Timing.DcacheStoreQueue) {
+      L1Banks(L1.exists() ? Timing.DcacheBanks : 0, Timing.DcacheStoreQueue) {
   for (unsigned W = 0; W != Others.size(); ++W)
     of(W).Trace = Traces[W];
 }
@@ -47,7 +47,7 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
   UnitsBusyUntil = 0;
   LastDone = 0;
   L1.clear();
-  Doors.clear();
+  L1Banks.clear();
   Spent = Told = {};
   ToldUntil = Start;
   Serial = 0;
@@ -175,8 +175,8 @@ bool CoreClock::access(MemorySystem &Memory) {
   uint32_t Room = Timing.LinesAtOnce;
   for (unsigned N = 0; N != A.Lines; ++N, --Room) {
     R.Address = Trace->word(1 + N);
-    if (Doors.exist()) {
-      R.Now = Doors.enter(R.Address, First);
+    if (L1Banks.exist()) {
+      R.Now = L1Banks.accept(R.Address, First);
       Last = std::max(Last, R.Now);
     } else if (Room == 0) {
       Last = R.Now += Timing.LineCycles;
@@ -190,8 +190,8 @@ bool CoreClock::access(MemorySystem &Memory) {
     CacheRequest Below = R;
     // The tags have been looked up before the request goes on.
     Below.Now += UsesL1 ? Timing.DcacheCycles : 0;
-    if (Doors.exist())
-      Below.Now = Doors.leave(R.Address, Below.Now);
+    if (L1Banks.exist())
+      Below.Now = L1Banks.send(R.Address, Below.Now);
     InFlight.ask(Memory, Place, Below);
   }
   const uint64_t Leaving = Last + Timing.LineCycles - First;

@@ -67,12 +67,12 @@ private:
   uint64_t Uses = 0;
 };
 
-/// The doors of a data cache: a bank takes a line a cycle. Stores wait behind
-/// their bank for the core's port, which lets one line a cycle out; while a
-/// bank's queue is full it takes nothing.
-class DataCacheDoors {
+/// The banks of a data cache. A bank accepts one line per cycle. Stores and
+/// misses wait in a queue behind their bank for the core's port, which sends
+/// one line per cycle; a bank whose queue is full accepts nothing.
+class DataCacheBanks {
 public:
-  DataCacheDoors(uint32_t BanksIn, uint32_t QueueIn)
+  DataCacheBanks(uint32_t BanksIn, uint32_t QueueIn)
       : Banks(BanksIn), Queue(QueueIn) {}
 
   bool exist() const { return Banks != 0; }
@@ -82,8 +82,8 @@ public:
     Oldest.assign(Banks, 0);
     PortAt = 0;
   }
-  /// When the bank of \p Address takes a line that comes at \p Now.
-  uint64_t enter(uint32_t Address, uint64_t Now) {
+  /// When its bank accepts the line of \p Address, which arrives at \p Now.
+  uint64_t accept(uint32_t Address, uint64_t Now) {
     const uint32_t Bank = bankOf(Address);
     uint64_t At = std::max(Now, FreeAt[Bank]);
     if (Queue)
@@ -91,8 +91,9 @@ public:
     FreeAt[Bank] = At + 1;
     return At;
   }
-  /// When a line that its bank has done with at \p Now is let out.
-  uint64_t leave(uint32_t Address, uint64_t Now) {
+  /// When the port sends the line of \p Address, which its bank has processed
+  /// at \p Now.
+  uint64_t send(uint32_t Address, uint64_t Now) {
     const uint32_t Bank = bankOf(Address);
     const uint64_t At = std::max(Now, PortAt);
     PortAt = At + 1;
@@ -428,7 +429,7 @@ private:
   std::vector<Access> Accesses; ///< by place
   uint64_t LastDone = 0; ///< of the accesses to memory whose end is known
   DataCache L1;
-  DataCacheDoors Doors;
+  DataCacheBanks L1Banks;
 
   CoreTime Spent;
   const TimeWatch *Watch = nullptr;

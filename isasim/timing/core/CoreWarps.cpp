@@ -86,8 +86,7 @@ uint64_t CoreClock::earliest(WarpTime &W) {
 
 /// The warp that issues first, and when, where each cycle's slot is given in
 /// turn to one of the warps with a decoded instruction, whether or not it can
-/// issue (`timing.core.issue_in_turn`). Warp Count and Turn::Never if it is
-/// nobody.
+/// issue (`timing.core.issue_in_turn`). {warps(), Turn::Never} if no warp can.
 std::pair<unsigned, uint64_t> CoreClock::firstInTurn() const {
   const unsigned Count = warps();
   const auto After = [&](unsigned Last, const SlotWarp &S) {

@@ -1,7 +1,6 @@
 #include "MachineCode.h"
 
 #include "Lld.h"
-#include "MemoryFile.h"
 #include "ObjectCheck.h"
 #include "Program.h"
 #include "vorion/support/Diagnostics.h"
@@ -17,7 +16,11 @@
 #include "llvm/Support/raw_ostream.h"
 #include "llvm/TargetParser/Host.h"
 
+#include <array>
+#include <cerrno>
 #include <span>
+#include <sys/mman.h>
+#include <unistd.h>
 
 // clang's name. NOLINTNEXTLINE(readability-identifier-naming)
 int clang_main(int Argc, char **Argv, const llvm::ToolContext &Context);
@@ -27,6 +30,73 @@ namespace vorion {
 namespace {
 
 using Words = std::vector<std::string>;
+
+/// A file in memory, for code that reads and writes files.
+class MemoryFile {
+public:
+  /// Empty, or with \p Contents. Whether there is memory is known by isGood().
+  explicit MemoryFile(std::string_view Contents = {});
+  MemoryFile(const MemoryFile &) = delete;
+  MemoryFile &operator=(const MemoryFile &) = delete;
+  ~MemoryFile();
+
+  bool isGood() const { return Good; }
+  int descriptor() const { return Descriptor; }
+  /// Its name in this process.
+  std::string path() const;
+  std::string contents() const;
+
+private:
+  int Descriptor;
+  bool Good;
+};
+
+/// While it lives, standard output goes to \p File.
+class OutputTo {
+public:
+  explicit OutputTo(const MemoryFile &File);
+  OutputTo(const OutputTo &) = delete;
+  OutputTo &operator=(const OutputTo &) = delete;
+  ~OutputTo();
+
+private:
+  int Before;
+};
+
+MemoryFile::MemoryFile(std::string_view Contents)
+    : Descriptor(memfd_create("vorion", MFD_CLOEXEC)), Good(Descriptor >= 0) {
+  while (Good && !Contents.empty()) {
+    const ssize_t Written = write(Descriptor, Contents.data(), Contents.size());
+    if (Written > 0)
+      Contents.remove_prefix(static_cast<size_t>(Written));
+    else
+      Good = Written < 0 && errno == EINTR;
+  }
+}
+
+MemoryFile::~MemoryFile() { close(Descriptor); }
+
+std::string MemoryFile::path() const {
+  return "/proc/self/fd/" + std::to_string(Descriptor);
+}
+
+std::string MemoryFile::contents() const {
+  std::string All;
+  std::array<char, 65536> Part{};
+  for (ssize_t Got = 0; (Got = pread(Descriptor, Part.data(), Part.size(),
+                                     static_cast<off_t>(All.size()))) > 0;)
+    All.append(Part.data(), static_cast<size_t>(Got));
+  return All;
+}
+
+OutputTo::OutputTo(const MemoryFile &File) : Before(dup(STDOUT_FILENO)) {
+  dup2(File.descriptor(), STDOUT_FILENO);
+}
+
+OutputTo::~OutputTo() {
+  dup2(Before, STDOUT_FILENO);
+  close(Before);
+}
 
 constexpr const char *NoMemory =
     "memory ran out while it was compiled, expected more";

@@ -26,8 +26,8 @@ public:
   PictureLoss(Launcher &Launch, double DSsimShare)
       : Launch(Launch), DSsim(DSsimShare) {}
 
-  /// \p Picture has four floats per pixel, of which the first three are
-  /// compared with \p Target. \c gradient() is then dL/dpicture, three floats
+  /// \p Picture has four floats per pixel. The first three are compared with
+  /// \p Target. \c gradient() is then dL/dpicture, three floats
   /// per pixel. Pixels with a 0 in \p Counts (if not empty) are black in both
   /// pictures and excluded from means.
   LossValues evaluate(const cl::Buffer &Picture, const Photo &Target,

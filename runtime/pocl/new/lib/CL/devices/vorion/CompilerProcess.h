@@ -1,6 +1,7 @@
-/// The compiler, vorion-compiler, as processes that stay: of the time for a
-/// small kernel most is their start (docs/backend.md, "Cost"). What happens to
-/// one of them does not happen to this process.
+/// The compiler, vorion-compiler, as processes that are kept for further
+/// kernels: their start is most of the compile time of a small kernel
+/// (docs/backend.md, "Cost"). A crash of the compiler does not end this
+/// process.
 #pragma once
 
 #include <string>

@@ -8,8 +8,8 @@
 
 namespace vorion {
 
-/// A request about device \p Index of \p Program, of which the compiler gets
-/// the binary if there is one.
+/// A request for \p Task on device \p Index of \p Program. It contains the
+/// program's binary for the device if there is one.
 CompilerRequest requestFor(cl_program Program, cl_uint Index,
                            CompilerTask Task);
 
