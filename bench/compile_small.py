@@ -16,6 +16,7 @@ import statistics
 import time
 
 import command_line
+import processor_time
 
 SOURCE = "kernel void f(global float *a) {{ size_t i = get_global_id(0); a[i] = a[i] * {}.5f + 1.0f; }}"
 
@@ -25,11 +26,11 @@ MARK = f"COMPILE_SMALL={os.getpid()}"
 
 
 def servers_time():
-    """Of the tools that stay (runtime/pocl/README.md), which are nobody's children, and of what they started."""
+    """Of the tools that stay (runtime/pocl/README.md), and of what they started and waited for."""
     ticks = 0
     for entry in filter(str.isdigit, os.listdir("/proc")):
         try:
-            with open(f"/proc/{entry}/environ", "rb") as environment, open(f"/proc/{entry}/stat") as state:
+            with open(f"/proc/{entry}/environ", "rb") as environment, open(f"/proc/{entry}/stat", encoding="utf-8") as state:
                 if MARK.encode() in environment.read().split(b"\0"):
                     ticks += sum(map(int, state.read().rpartition(")")[2].split()[11:15]))
         except OSError: # it has ended
@@ -39,9 +40,8 @@ def servers_time():
 
 def spent():
     """Seconds: of this process, of the compiler's, and those that went by."""
-    own, children = (used.ru_utime + used.ru_stime for used in map(resource.getrusage, (resource.RUSAGE_SELF,
-                                                                                       resource.RUSAGE_CHILDREN)))
-    return own, children + servers_time(), time.monotonic()
+    own = resource.getrusage(resource.RUSAGE_SELF)
+    return own.ru_utime + own.ru_stime, sum(processor_time.of_ended()) + servers_time(), time.monotonic()
 
 
 def main():
@@ -49,6 +49,7 @@ def main():
     parser.add_argument("--kernels", type=int, default=60)
     options = parser.parse_args()
     os.environ.update(POCL_KERNEL_CACHE="0", PYOPENCL_NO_CACHE="1", COMPILE_SMALL=str(os.getpid()))
+    processor_time.adopt_orphans()
     import pyopencl as cl # which reads the environment
     context = cl.Context(dev_type=cl.device_type.ALL)
     queue = cl.CommandQueue(context)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How long OpenCL C takes to become an image, and where: seconds of processor time (user) a step.
+"""How long OpenCL C takes to become an image, and where: seconds of processor time (user) a step, of all processes.
 
 usage: compile_time.py [--json FILE] [--runs N] (REPORT.json | KERNEL.cl ...)
 
@@ -16,25 +16,26 @@ import argparse
 import glob
 import json
 import os
-import resource
 import shutil
 import subprocess
 import sys
 import tempfile
 
 import command_line
+import processor_time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.environ.get("VORION_ROOT") or os.path.join(ROOT, "build", "dev")
 
 
 def user_time(*command, **environment):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    before, _ = processor_time.of_ended()
     done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False,
                           env={**os.environ, **environment})
     if done.returncode != 0:
         sys.exit(f"compile_time: error: {' '.join(command)}: {done.stderr.strip()}")
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    after, _ = processor_time.of_ended(wait=True)
+    return after - before
 
 
 def sources(inputs, folder):
@@ -89,6 +90,7 @@ def main():
     parser.add_argument("inputs", nargs="+")
     options = parser.parse_args()
     rows = []
+    processor_time.adopt_orphans()
     steps = ["whole", "front end", "groups", "optimise", "code", "link"]
     with tempfile.TemporaryDirectory() as folder:
         print(f"{'program':12} {'kernels':>7}" + "".join(f"{step:>10}" for step in steps))

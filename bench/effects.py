@@ -92,7 +92,7 @@ def compare(args):
 
 
 def first_frames(args):
-    """Processor seconds of a whole process, compiling included and not."""
+    """Processor seconds of a process, with an empty cache and with a full one; the compiler's processes are not counted."""
     rows = []
     print("| scene | view | auto, empty cache | flags, empty cache | auto, cached | flags, cached |")
     for scene in chosen(args.scenes):

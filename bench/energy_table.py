@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The table of docs/energy.md on what frames take, drawn anew.
+"""The table of docs/tables/energy-frames.md, drawn again.
 
 usage: energy_table.py [--scenes FOLDER] [--only TEXT]   (prints Markdown; some minutes)
 """

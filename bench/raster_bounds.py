@@ -11,9 +11,9 @@ import sys
 import command_line
 
 # isasim/testing/RasterTile.h
-HEAD = struct.Struct("<32s4If13I")
+HEAD = struct.Struct("<32s4If15If")
 FIELDS = ("x y width height cutoff gaussians pixels latency fragments blends cycles begin fetch clip blend hazard flush "
-          "drain").split()
+          "drain primitive depth clear_depth").split()
 LANES, START = 16, 4
 
 
@@ -23,7 +23,8 @@ def tiles(name):
             if len(head) != HEAD.size:
                 sys.exit(f"raster_bounds.py: error: {name}: is cut off, expected what isasim-raster-tiles wrote")
             tile = dict(zip(FIELDS, HEAD.unpack(head)[1:], strict=True))
-            f.seek(48 * tile["gaussians"] + 16 * tile["pixels"], 1)
+            record, pixel = (72, 8) if tile["primitive"] else (48, 16)
+            f.seek(record * tile["gaussians"] + pixel * tile["pixels"], 1)
             yield tile
 
 

@@ -17,11 +17,11 @@ import command_line
 import study
 import timed_frame
 
-SWITCHES = ("fpu", "loads_queue", "interleaved_stacks", "intersect_hint")
+SWITCHES = ("fpu", "loads_queue", "interleaved_stacks", "intersect_hint", "crossbar", "write_through")
 POWERS_OF_TWO = ("channels", "channel_bytes")
 # Of these 0 is no number but none, or no bound, and 1 is far from it.
-NONE_IF_ZERO = ("dcache_kib", "fixed_cycles", "fp_in_flight", "from_l2_mbps", "icache_kib", "l2_mhz", "register_banks", "skip_blocks", "tile_overlap",
-                "to_l2_mbps", "unit_queue")
+NONE_IF_ZERO = ("constant_cycles", "dcache_kib", "fixed_cycles", "fp_in_flight", "from_l2_mbps", "icache_kib", "l2_mhz", "register_banks",
+                "skip_blocks", "tile_overlap", "to_l2_mbps", "unit_queue")
 
 
 def parameters(timing):

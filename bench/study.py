@@ -65,7 +65,8 @@ def kept(points, folder):
 
 
 def measure(points, folder, jobs=1, **environment):
-    """The results of points, in order: {"report", "refused", "output_fnv1a64", "seconds", "processor_seconds", "made_from"}.
+    """The results of points, in order: {"report", "refused", "output_fnv1a64", "seconds", "processor_seconds", "made_from"}. The processor seconds are the
+    program's own and its children's, without those of the compiler, which is nobody's child.
     Those that are missing are measured, and a run that fails ends the script; environment: of all runs, and no part of what
     made a result."""
     return _call(points, folder, jobs, True, environment)

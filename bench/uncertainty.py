@@ -1,19 +1,26 @@
 #!/usr/bin/env python3
 """How far a frame's time may be off: its interval when everything that no source gives is drawn at random.
 
-usage: uncertainty.py SCENE --cameras FILE --view NAME --out FOLDER [--config MACHINE] [--samples N] [--seed S]
+usage: uncertainty.py SCENE --cameras FILE --view NAME --out FOLDER [--config MACHINE] [--samples N] [--seed S] [--raster-only]
+       uncertainty.py --parts
 
-What is drawn: each value of the clock whose source says "ours" (vorion-sim --print-timing-parameters), from half to
+What is drawn of values: each of the clock whose source says "ours" (vorion-sim --print-timing-parameters), from half to
 twice what it is; words and powers of two among their choices; the link, where the machine has one, in the interval
-of docs/model.md; a launch as 0, 2 or 20 us. Values are drawn evenly in their logarithm, by a Latin hypercube: each of N
-equal parts of a parameter's interval is used once. Switches stay, because they are choices and not values.
+of docs/prototype.md; a launch as 0, 2 or 20 us. Other switches stay, because they are choices and not values.
 
-Each sample draws the view with the rasterizer and with the cores alone. Prints the 5 to 95 % interval of both times and
-of their ratio, and which parameters the time follows most (Spearman's rank correlation). FOLDER keeps each frame
-(docs/studies.md). Exit codes: 0 done, 1 a frame failed, 2 usage.
+What is drawn of the model: the switches of the L2 that the RTL has otherwise, and for each part of a frame's time a factor
+in the range of what measurements leave open. A part is what units spent on some reasons (docs/time-report.md); --parts
+prints the parts, their ranges and the grounds. Both are drawn evenly in their logarithm, by a Latin hypercube: each of N
+equal parts of an interval is used once.
+
+Each sample draws the view with the rasterizer and, without --raster-only, with the cores alone. Prints the 5 to 95 %
+interval of the times and of their ratio: with drawn values alone, with drawn values and parts, and with drawn parts on the
+machine as it is. Also prints the parameters and parts that the time with both follows most (Spearman's rank correlation).
+FOLDER keeps each frame (docs/studies.md). Exit codes: 0 done, 1 a frame failed, 2 usage.
 """
 
 import argparse
+import collections
 import json
 import math
 import random
@@ -26,10 +33,33 @@ import study
 import timed_frame
 
 LINK = {"l2_mhz": (100, 200), "to_l2_ns": (10, 100), "from_l2_ns": (10, 100), "to_l2_mbps": (1600, 12800),
-        "from_l2_mbps": (1600, 12800)}
+        "from_l2_mbps": (1600, 12800), "header_bytes": (4, 16)}
+# Named machines have neither, and the RTL that is the reference has both.
+SWITCHES = {("l2", "crossbar"): [0, 1], ("l2", "write_through"): [0, 1]}
 LAUNCH = [0, 2000, 20000]
+HOST_CONSTANTS = {"launch_ns", "copy_ns", "copy_mbps"}
 WORDS = {"address_map": ["digit_sum", "row_bank_column", "xor"], "refresh": ["rank", "none"]}
 POWERS_OF_TWO = {"channel_bytes": [64, 128, 256, 512, 1024]}
+
+# Parts of a frame's time: the range of the true time of a part in percent of ours, and its grounds. An error e of ours
+# over a reference makes 1 / (1 + e).
+PARTS = {
+    "instructions": (93, 107, "`project`, `sort` and `tiles` on 1, 2 and 4 cores with 1 and 2 warps are -6.1 to +7.3 % off the RTL; "
+                     "neither 8 cores nor the preset `forwarding` has a reference"),
+    "memory": (64, 162, "a core without a data cache, sockets on one L2, atomics and the last-level cache have no reference; loops of "
+               "16-line accesses on 2 and 4 cores, with all of the RTL's parameters, are -38.1 to +56.2 % off. DRAM's mixes, "
+               "within 1 % of Ramulator 2.1, are included"),
+    "stores on the link": (17, 100, "a store of a word is sent as a line, 72 bytes with its header; a link that sends only the word "
+                           "would send 12"),
+    "rasterizer": (99, 101, "tiles are -1.14 to +0.78 % off the circuit; several rasterizers and pixel units have no reference but the "
+                   "arithmetic of one"),
+}
+# The part of each reason. Reasons that are left out are waits for others that work: they follow the rest of their unit.
+CORES = {"launch": "launch", "link": "link", "raster_full": "rasterizer", "raster_wait": "rasterizer",
+         **dict.fromkeys(("start", "issue", "fetch", "operand", "local", "unit", "slot", "branch", "divergence"), "instructions"),
+         **dict.fromkeys(("memory", "lsu_queue", "fence"), "memory")}
+RASTERIZERS = {"link": "link", **dict.fromkeys(("blend", "clip", "hazard", "begin", "flush"), "rasterizer"),
+               **dict.fromkeys(("fetch", "drain"), "memory")}
 
 
 def ours():
@@ -59,15 +89,55 @@ def dimensions(timing):
         value = timing[group][name]
         if group == "link":
             continue
+        # Launches and copies are constants, or units with values of their own.
+        if group == "host" and (name in HOST_CONSTANTS) == bool(timing["host"]["dma_engines"]):
+            continue
         if name in WORDS or name in POWERS_OF_TWO:
             found[group, name] = (WORDS | POWERS_OF_TWO)[name]
         elif value:  # 0 is none, or no bound
             allowed = schema[group][name]
             found[group, name] = (max(1, allowed["minimum"], value / 2), min(allowed["maximum"], value * 2))
-    found["host", "launch_ns"] = LAUNCH
+    if not timing["host"]["dma_engines"]:
+        found["host", "launch_ns"] = LAUNCH
     if timing["link"]["l2_mhz"]:
         found |= {("link", name): ends for name, ends in LINK.items()}
+    return found | SWITCHES | {("part", name): (low, high) for name, (low, high, _) in PARTS.items()}
+
+
+def mix(units, parts):
+    """Shares of parts in those cycles of units whose reason belongs to a part; none where there are no such cycles."""
+    cycles = collections.Counter()
+    for unit in units:
+        for reason, part in parts.items():
+            cycles[part] += unit[reason]
+    total = sum(cycles.values())
+    return {part: count / total for part, count in cycles.items()} if total else {}
+
+
+def shares(time):
+    """Shares of parts in the time of a run. Cores that wait for rasterizers spend their time as those do."""
+    found = collections.Counter(mix(time["cores"], CORES))
+    rasterizers = mix(time["rasterizers"], RASTERIZERS)
+    if rasterizers:
+        waiting = found.pop("rasterizer", 0)
+        found.update({part: waiting * share for part, share in rasterizers.items()})
+    # Reads send a header to the L2 and get a line, stores the reverse.
+    busy = time["link"]["busy_to_l2"], time["link"]["busy_from_l2"]
+    found["stores on the link"] = found["link"] * busy[0] / sum(busy) if any(busy) else 0
+    found["link"] -= found["stores on the link"]
     return found
+
+
+def frame_ms(time, factors):
+    """A frame's time from its report, with factors in percent of its parts."""
+    total = 0
+    for stage in time["stages"]:
+        if stage["of_the_frame"]:
+            total += stage["launch_ms"] + stage["copy_ms"]
+            if run := stage.get("time"):
+                longer = sum(share * (factors.get(part, 100) / 100 - 1) for part, share in shares(run).items())
+                total += run["cycles"] / run["clock_mhz"] / 1000 * (1 + longer)
+    return total
 
 
 def value_at(domain, part):
@@ -90,27 +160,35 @@ def samples(domains, count, seed):
     return drawn
 
 
-PATHS = ("raster", "simt")
+def paths_of(args):
+    return ("raster",) if args.raster_only else ("raster", "simt")
 
 
 def points_of(args, default, drawn):
-    """Of each sample, one with the rasterizer and one with the cores alone."""
+    """Of each sample, one for each path: with the rasterizer, and with the cores alone."""
     of = timed_frame.scene_of(args)
     for number, sample in enumerate(drawn):
         config = json.loads(json.dumps(default))
         for (group, name), value in sample.items():
-            config["timing"][group][name] = value
-        for path in PATHS:
+            if group != "part":
+                config["timing"][group][name] = value
+        for path in paths_of(args):
             yield study.render(f"{number}-{path}", of, args.view, "--time", "--path", path, VORION_CONFIG=json.dumps(config))
 
 
-def results_of(drawn, measured):
-    """What table() takes of each sample."""
+DRAWN = ("values", "values and parts", "parts")
+
+
+def results_of(paths, drawn, measured):
+    """What table() takes of each sample: of each path its times by DRAWN."""
     times = [result["report"]["time"] for result in measured]
+    as_it_is = times[:len(paths)]
     for number, sample in enumerate(drawn):
-        own = times[len(PATHS) * number:][:len(PATHS)]
+        own = times[len(paths) * number:][:len(paths)]
+        factors = {name: value for (group, name), value in sample.items() if group == "part"}
         yield {"values": {".".join(key): value for key, value in sample.items()}, "machine": clocked.name(own[-1]["sum"]),
-               **{path: time["frame_ms"] for path, time in zip(PATHS, own)}}
+               **{path: (time["frame_ms"], frame_ms(time, factors), frame_ms(base, factors))
+                  for path, time, base in zip(paths, own, as_it_is)}}
 
 
 def ranks(values):
@@ -135,7 +213,7 @@ def followed(results):
         values = [r["values"][name] for r in results]
         if isinstance(one, str) or len(set(values)) == 1:
             continue
-        found.append((statistics.correlation(ranks(values), ranks([r["raster"] for r in results])), name))
+        found.append((statistics.correlation(ranks(values), ranks([r["raster"][1] for r in results])), name))
     return sorted((f for f in found if abs(f[0]) >= share), key=lambda f: -abs(f[0]))
 
 
@@ -146,33 +224,54 @@ def interval(values):
 
 
 def table(base, results):
-    rows = [("frame, rasterizer, ms", base["raster"], [r["raster"] for r in results]),
-            ("frame, cores alone, ms", base["simt"], [r["simt"] for r in results]),
-            ("times faster with the rasterizer", base["simt"] / base["raster"],
-             [r["simt"] / r["raster"] for r in results])]
-    print("| | as it is | 5 % | median | 95 % |\n|---|--:|--:|--:|--:|")
-    for name, as_it_is, values in rows:
-        print(f"| {name} | " + " | ".join(f"{v:.3g}" for v in (as_it_is, *interval(values))) + " |")
+    rows = {"frame, rasterizer, ms": lambda r, n: r["raster"][n]}
+    if "simt" in base:
+        rows |= {"frame, cores alone, ms": lambda r, n: r["simt"][n],
+                 "times faster with the rasterizer": lambda r, n: r["simt"][n] / r["raster"][n]}
+    print("| | drawn | as it is | 5 % | median | 95 % |\n|---|---|--:|--:|--:|--:|")
+    for name, of in rows.items():
+        for n, drawn in enumerate(DRAWN):
+            print(f"| {name} | {drawn} | " + " | ".join(f"{v:.3g}" for v in (of(base, 0), *interval([of(r, n) for r in results]))) + " |")
     clocked.say([base["machine"]])
     print("\nThe frame's time follows " + (", ".join(
         f"`{name}` ({c:+.2f})" for c, name in followed(results)) or "no single parameter") + ".")
 
 
+class PrintParts(argparse.Action):
+    """As --help: prints and ends, whatever else is given."""
+
+    def __init__(self, **options):
+        super().__init__(nargs=0, **options)
+
+    def __call__(self, parser, *_):
+        reasons = {"stores on the link": ["cores and rasterizers: `link`, by the share of the link's busy cycles to the L2"]}
+        for unit, parts in (("cores", CORES), ("rasterizers", RASTERIZERS)):
+            for part in PARTS:
+                if of := [f"`{reason}`" for reason, its in parts.items() if its == part]:
+                    reasons.setdefault(part, []).append(f"{unit}: {', '.join(of)}")
+        print("| part | reasons | true time, % of ours | grounds |\n|---|---|---|---|")
+        for part, (low, high, grounds) in PARTS.items():
+            print(f"| {part} | {'; '.join(reasons[part])} | {low} to {high} | {grounds} |")
+        parser.exit()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--parts", action=PrintParts, help="print the parts of a frame's time and their ranges")
     timed_frame.add_view(parser)
     parser.add_argument("--out", required=True, help="folder for the frames")
     parser.add_argument("--jobs", type=int, default=1, help="frames that are drawn at the same time (default: %(default)s)")
     parser.add_argument("--config", help="a machine's name or file; default: the default machine")
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--raster-only", action="store_true", help="leave out the frames of the cores alone")
     args = parser.parse_args()
     if args.samples < 3:
         parser.error(f"--samples is {args.samples}, expected 3 or more")
 
     default = timed_frame.machine(args.config)
     drawn = [{}, *samples(dimensions(default["timing"]), args.samples, args.seed)]  # the first is the machine as it is
-    base, *results = results_of(drawn, study.measure(list(points_of(args, default, drawn)), args.out, args.jobs))
+    base, *results = results_of(paths_of(args), drawn, study.measure(list(points_of(args, default, drawn)), args.out, args.jobs))
     table(base, results)
 
 

@@ -57,7 +57,7 @@ endfunction()
 # their CMakeLists.txt works inside of the repository only.
 function(vorion_install_documents)
   set(Folder share/doc/vorion)
-  install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${Folder} COMPONENT doc)
+  install(FILES README.md CITATION.cff CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${Folder} COMPONENT doc)
   install(DIRECTORY docs DESTINATION ${Folder} COMPONENT doc PATTERN site EXCLUDE)
   # Each part has a README. What else lies beside them, such as build/ and its sources of LLVM, is none of ours.
   file(GLOB Parts RELATIVE "${CMAKE_SOURCE_DIR}" */README.md)
@@ -86,7 +86,7 @@ function(vorion_install_package)
   # What `cmake --install` needs, without tests and fuzzers.
   add_custom_target(vorion_installed DEPENDS ${Targets})
   # What scripts/demo.sh and the first steps of README.md use of that.
-  set(Demo splat splat-hard-cases vorion-compiler vorion_libdevice vorion_pocl)
+  set(Demo splat splat-figures splat-hard-cases vorion-compiler vorion_libdevice vorion_pocl)
   add_custom_target(vorion_demo)
   foreach(Target IN LISTS Demo)
     if(Target IN_LIST Targets)

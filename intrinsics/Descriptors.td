@@ -10,6 +10,23 @@ def VxGaussian : Descriptor<"vx_gaussian", [
     DescField<"tag", "u32", 1, "Gaussian index, with VR_INTERSECT if it spans several tiles">
   ], "One projected Gaussian as the rasterizer reads it.">;
 
+def VxTriangle : Descriptor<"vx_triangle", [
+    DescField<"a", "i32", 3, "of each edge: step of its function from a pixel to the next of the row">,
+    DescField<"b", "i32", 3, "step from a row to the next">,
+    DescField<"c_low", "u32", 3, "value at pixel (0, 0) of the picture, low word; the pixel is covered where none is negative">,
+    DescField<"c_high", "i32", 3, "high word">,
+    DescField<"depth", "f32", 1, "depth at pixel first">,
+    DescField<"depth_step", "f32", 2, "of the depth, from a pixel to the next of the row, from a row to the next">,
+    DescField<"first", "u32", 1, "first pixel of the box: column, and row times 2^16">,
+    DescField<"last", "u32", 1, "last pixel of the box, likewise">,
+    DescField<"tag", "u32", 1, "primitive ID">
+  ], "One triangle as the rasterizer reads it (docs/primitives.md).">;
+
+def VxVisibility : Descriptor<"vx_visibility", [
+    DescField<"depth", "f32", 1, "of the nearest triangle, or VR_WORD_DEPTH_CLEAR">,
+    DescField<"primitive", "u32", 1, "its tag, or VR_NO_PRIMITIVE">
+  ], "A pixel of triangles.">;
+
 def VxTail : Descriptor<"vx_tail", [
     DescField<"list", "u32", 1, "address of the list's next entry">,
     DescField<"count", "u32", 1, "remaining entries">,
@@ -22,9 +39,16 @@ def VxTail : Descriptor<"vx_tail", [
     DescField<"output", "u32", 1, "address of the tile's first pixel, with the state of the pixels">,
     DescField<"output_pitch", "u32", 1, "vr_output_pitch">,
     DescField<"core", "u32", 1, "core whose Raster Agent is notified of the end">,
-    DescField<"live_count", "u32", 1, "pixels that are not saturated">,
+    DescField<"live_count", "u32", 1, "pixels that may take more">,
     DescField<"live", "u32", 128, "one bit per pixel: column x of row y is bit x % 32 of word 2 y + x / 32">
   ], "Hand-over of a tile to the pixel unit: the rest of its list and its live pixels.">;
+
+def VxTailRange : Descriptor<"vx_tail_range", [
+    DescField<"mode", "u32", 1, "limited, from and keep_saturated of vr_mode">,
+    DescField<"limit", "u32", 1, "VR_WORD_LIMIT">,
+    DescField<"limit_first", "u32", 1, "VR_WORD_LIMIT_FIRST: number of the list's next entry">,
+    DescField<"from", "u32", 1, "VR_WORD_FROM">
+  ], "Follows a vx_tail whose pixels take ranges of the list, or keep that they are saturated.">;
 
 def VxLaunch : Descriptor<"vx_launch", [
     DescField<"entry", "u32", 1, "work-group function">,

@@ -102,6 +102,14 @@ class Constant<string name, int value, string doc> {
   string Doc = doc;
 }
 
+// A word of a command that vr_word accesses while vr_index is its number: what
+// one kind of primitive needs takes no CSR.
+class IndexedWord<string name, int number, string doc>
+    : Constant<"VR_WORD_" # !toupper(name), number, doc> {
+  string Word = name;
+  list<CsrField> Fields = [];
+}
+
 class DescField<string name, string type, int count, string doc> {
   string Name = name;
   string Type = type;
@@ -110,7 +118,7 @@ class DescField<string name, string type, int count, string doc> {
 }
 
 // A structure shared by device, driver and simulator. Fields are 4 bytes each
-// ("u32" or "f32"), laid out in order, `Count` of them for an array.
+// ("u32", "i32" or "f32"), laid out in order, `Count` of them for an array.
 class Descriptor<string name, list<DescField> fields, string doc> {
   string Name = name;
   list<DescField> Fields = fields;

@@ -8,7 +8,7 @@ class LaneUnit<string prefix, string choice, int number, string doc>
     : Constant<prefix # !toupper(!subst("-", "_", choice)), number, doc> {
   string Choice = choice;             // its name on command lines
   string Report = choice;             // and in reports of the clock
-  // Time in cycles, and what it is made of: docs/model.md#area-of-a-lane.
+  // Time in cycles, and what it is made of: docs/lane-units.md#area-of-a-lane.
   int Latency = 1;
   int Interval = 1;
   int Multipliers = 0;                // fp32
@@ -20,6 +20,40 @@ class LaneUnit<string prefix, string choice, int number, string doc>
   int RegisterBits = 0;               // between stages, where they are no part of the lane's rest
   string Source = ?;                  // or derivation
 }
+
+// vr_mode.primitive: what decides whether a primitive covers a pixel, and with
+// which alpha or depth (docs/primitives.md). The conic's body is reach() of
+// isasim/raster/DatapathParts.h; of those whose primitives are opaque, Surfaces.h.
+class FrontEndUnit<string choice, int number, string record, string doc>
+    : LaneUnit<"VR_PRIMITIVE_", choice, number, "Kind of primitive: " # doc # "."> {
+  string Record = record;             // a descriptor
+  int PixelWords = 4;                 // of the pixel buffer, in a render
+  int OutputWords = 4;                // of a pixel at vr_output
+}
+def : FrontEndUnit<"conic", 0, "vx_gaussian", "the exponential of a quadratic form"> {
+  let Report = "power";
+  let Multipliers = 7;
+  let Adders = 4;
+  let Source = "first stage [paper]; a dx dx, c dy dy, b dx dy and the half are 7 multiplications, dx, dy and two sums 4 additions";
+}
+def : FrontEndUnit<"triangle", 1, "vx_triangle", "three edges and a plane of depths"> {
+  let PixelWords = 2;
+  let OutputWords = 2;
+  let Latency = 2;
+  let Multipliers = 2;
+  let Adders = 3;
+  let ProductBits = !mul(3, 2, 6, 32);
+  let AdderBits = !mul(3, 2, 40);
+  let Source = "a of 32 bits times a column of 6, b times a row, three times, and two sums of 40; depth takes 2 multiplications and 2 additions, the test a comparison; ours";
+}
+// Numbers that docs/primitives.md gives to kinds which are not built.
+class ReservedFrontEndNumber<int number, string choice> {
+  int Value = number;
+  string Choice = choice;
+}
+def : ReservedFrontEndNumber<2, "wide-conic">;
+def : ReservedFrontEndNumber<3, "ray">;
+def : ReservedFrontEndNumber<4, "surfel">;
 
 // vr_options.exp. Its bodies: ExpVector.h and ScalarUnits.h of isasim/raster/.
 class ExpUnit<string choice, int number, string bound, string doc>

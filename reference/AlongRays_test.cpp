@@ -25,6 +25,8 @@ Camera<double> camera(const LensModel *M) {
     K = {-0.25, 0.08, 0.004, -0.006, -0.01, 0.02, 0.03, 0.01, 0.003, -0.001};
   if (M == &lenses::Division)
     K = {-0.2};
+  if (M == &lenses::Eucm)
+    K = {0.6, 1.2};
   if (M == &lenses::Fisheye)
     K = {0.06, -0.02, 0.005};
   setLens(C, *M, K);

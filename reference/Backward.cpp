@@ -249,7 +249,8 @@ SplatSums &SplatSums::operator+=(const SplatSums &Other) {
 
 std::vector<SplatSums> blendBackward(const std::vector<Splat<double>> &Splats,
                                      int Width, int Height, const Upstream &U,
-                                     const Options &O) {
+                                     const Options &O,
+                                     const Surface<double> *Surface) {
   const TileWalk<double> Walk(Splats, Width, Height, O);
   const dvec3 Background(O.Background[0], O.Background[1], O.Background[2]);
   std::vector<TileSums> Tiles(Walk.tiles());
@@ -264,12 +265,16 @@ std::vector<SplatSums> blendBackward(const std::vector<Splat<double>> &Splats,
     for (int Y = Area.Y0; Y < Area.Y1; ++Y)
       for (int X = Area.X0; X < Area.X1; ++X) {
         Seen.clear();
-        const auto End =
-            Walk.pixel(List, X, Y, [&](const auto &C) { Seen.push_back(C); });
         const auto At =
             static_cast<std::size_t>(Y) * static_cast<std::size_t>(Width) +
             static_cast<std::size_t>(X);
-        const double Behind = glm::dot(Background, U.Render[At]) - U.Alpha[At];
+        const bool IsCovered = Surface && std::isfinite(Surface->Depths[At]);
+        const auto End = Walk.pixel(
+            List, X, Y, [&](const auto &C) { Seen.push_back(C); },
+            IsCovered ? hidingKeys(*Surface, At, O.DepthBits) : HidingKeys{});
+        const double Behind =
+            IsCovered ? glm::dot(Surface->Colors[At], U.Render[At])
+                      : glm::dot(Background, U.Render[At]) - U.Alpha[At];
         pixelBackward(List, Seen, End.T, U.Render[At], Behind, O.Rule,
                       Own.Sums);
       }
@@ -282,10 +287,11 @@ std::vector<SplatSums> blendBackward(const std::vector<Splat<double>> &Splats,
 }
 
 Gradients renderBackward(const Gaussians<double> &G, const Camera<double> &C,
-                         const Upstream &U, const Options &O) {
+                         const Upstream &U, const Options &O,
+                         const Surface<double> *Behind) {
   const auto Splats = project(G, C, O);
   Gradients Out;
-  Out.Sums = blendBackward(Splats, C.Width, C.Height, U, O);
+  Out.Sums = blendBackward(Splats, C.Width, C.Height, U, O, Behind);
   const std::size_t N = G.size();
   // What goes on behind a seam is the same Gaussian.
   for (std::size_t I = N; I < Splats.size(); ++I)

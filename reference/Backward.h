@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Projection.h"
+#include "Render.h"
 
 #include <vector>
 
@@ -31,10 +32,12 @@ struct SplatSums {
 /// Backward pass of \c blend, for \p Splats of \c project with the same \p O:
 /// the sums of each, in the order of \p Splats. Where alpha is clamped, the
 /// gradient is passed through with INRIA's rules and is 0 with gsplat's. The
-/// result does not depend on the number of threads.
+/// result does not depend on the number of threads. \p Behind: as of \c blend,
+/// without layers; alpha is 1 where it is.
 std::vector<SplatSums> blendBackward(const std::vector<Splat<double>> &Splats,
                                      int Width, int Height, const Upstream &U,
-                                     const Options &O);
+                                     const Options &O,
+                                     const Surface<double> *Behind = nullptr);
 
 /// dL/d(parameters) of a \c Gaussians, and intermediate gradients.
 struct Gradients {
@@ -54,6 +57,7 @@ struct Gradients {
 /// that is clamped in the Jacobian as a constant; gsplat's differentiate the
 /// limit. Gradients of culled Gaussians are 0.
 Gradients renderBackward(const Gaussians<double> &G, const Camera<double> &C,
-                         const Upstream &U, const Options &O);
+                         const Upstream &U, const Options &O,
+                         const Surface<double> *Behind = nullptr);
 
 } // namespace vorion::reference

@@ -145,6 +145,7 @@ TEST(Backward, IsTheDerivativeThroughLenses) {
                        {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
                         -0.01, 0.03, 0, 0.01}},
                       {&lenses::Division, {-0.3}},
+                      {&lenses::Eucm, {0.6, 1.2}},
                       {&lenses::Fisheye, {0.1, -0.02, 0.01, 0.002}},
                       {&lenses::Orthographic, {}},
                       {&lenses::Equirectangular, {}}};
@@ -179,6 +180,7 @@ struct {
                      {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
                       -0.01, 0.03, 0, 0.01}},
                     {&lenses::Division, {-0.2}},
+                    {&lenses::Eucm, {0.6, 1.2}},
                     {&lenses::Fisheye, {0.1, -0.02, 0.01, 0.002}},
                     {&lenses::Orthographic, {}},
                     {&lenses::Equirectangular, {}}};

@@ -138,11 +138,15 @@ template <typename Real> Real sharpDeterminant(const Footprint<Real> &F) {
   return M01 * M01 + M02 * M02 + M12 * M12;
 }
 
+/// Depth of the near plane.
+inline double nearLimit(const Options &O) {
+  return O.Near > 0 ? O.Near : O.Rule == Rules::Inria ? 0.2 : 0.01;
+}
+
 /// Whether depth \p Z is beyond the near plane; false for a NaN.
 template <typename Real> bool inFront(Real Z, const Options &O) {
-  if (O.Near > 0)
-    return O.Rule == Rules::Inria ? Z > Real(O.Near) : Z >= Real(O.Near);
-  return O.Rule == Rules::Inria ? Z > Real(0.2) : Z >= Real(0.01);
+  const auto Limit = static_cast<Real>(nearLimit(O));
+  return O.Rule == Rules::Inria ? Z > Limit : Z >= Limit;
 }
 
 } // namespace vorion::reference

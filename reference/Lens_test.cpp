@@ -19,6 +19,7 @@ using Coefficients = LensCoefficients;
 constexpr Coefficients Barrel{-0.28, 0.09,  0.002, -0.003, -0.012, 0.03,
                               0.02,  0.001, 0.004, -0.001, 0.002,  0.0005};
 constexpr Coefficients Equidistant{0.05, -0.01, 0.004, -0.0008};
+constexpr Coefficients Unified{0.6, 1.2};
 
 Camera<double> camera(const LensModel *Model, const Coefficients &K = {}) {
   auto C = frontCamera(64, 48, 40);
@@ -33,6 +34,8 @@ Camera<double> camera(const LensModel *Model, const Coefficients &K = {}) {
 }
 
 const Coefficients &coefficientsOf(const LensModel *M) {
+  if (M == &lenses::Eucm)
+    return Unified;
   return M == &lenses::Fisheye ? Equidistant : Barrel;
 }
 

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
+#include <span>
 
 namespace vorion::reference {
 namespace {
@@ -49,7 +52,8 @@ constexpr double LeastScale = 1e-100;
 } // namespace
 
 Reordered blendInOrder(const std::vector<Splat<double>> &Splats, int Width,
-                       int Height, const Options &O, const PixelDepth &Depth) {
+                       int Height, const Options &O, const PixelDepth &Depth,
+                       const Surface<double> *Behind) {
   Options Whole = O;
   Whole.Cutoff = 0; // what is full by one order may not be by another
   const TileWalk<double> Walk(Splats, Width, Height, Whole);
@@ -75,19 +79,39 @@ Reordered blendInOrder(const std::vector<Splat<double>> &Splats, int Width,
         Pairs += Front.size() * (Front.size() - 1) / 2;
         Turned += sortAndCount(Front);
         std::sort(All.begin(), All.end());
-        double T = 1;
-        glm::dvec3 Colour(0);
-        for (std::size_t I = 0, End = blended(All, O); I < End; ++I) {
-          Colour += Splats[static_cast<std::size_t>(All[I].Index)].Color *
-                    (All[I].Alpha * T);
-          T *= 1 - All[I].Alpha;
-        }
         const std::size_t Pixel =
             static_cast<std::size_t>(Y) * static_cast<std::size_t>(Width) +
             static_cast<std::size_t>(X);
+        const bool IsCovered = Behind && std::isfinite(Behind->Depths[Pixel]);
+        const std::span<const Layer<double>> Layers =
+            Behind && !Behind->Layers.empty()
+                ? std::span<const Layer<double>>(Behind->Layers[Pixel])
+                : std::span<const Layer<double>>();
+        double T = 1;
+        glm::dvec3 Colour(0);
+        auto Next = Layers.begin();
+        const auto BlendLayersUpTo = [&](double Depth) {
+          for (; Next != Layers.end() && Next->Depth <= Depth; ++Next) {
+            Colour += Next->Color * (Next->Alpha * T);
+            T *= 1 - Next->Alpha;
+          }
+        };
+        for (const Seen &S : All) {
+          if (IsCovered && S.Depth >= Behind->Depths[Pixel])
+            break;
+          BlendLayersUpTo(S.Depth);
+          if (isFull(T * (1 - S.Alpha), O))
+            break;
+          Colour +=
+              Splats[static_cast<std::size_t>(S.Index)].Color * (S.Alpha * T);
+          T *= 1 - S.Alpha;
+        }
+        BlendLayersUpTo(std::numeric_limits<double>::infinity());
         R.Render[Pixel] =
-            Colour +
-            T * glm::dvec3(O.Background[0], O.Background[1], O.Background[2]);
+            Colour + T * (IsCovered
+                              ? Behind->Colors[Pixel]
+                              : glm::dvec3(O.Background[0], O.Background[1],
+                                           O.Background[2]));
         R.Transmittance[Pixel] = T;
       }
   });

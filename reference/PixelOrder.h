@@ -25,9 +25,11 @@ struct Reordered {
 };
 
 /// Blends \p Splats, the result of \c project with the same \p O, in each pixel
-/// in the order of \p Depth, ties by index.
+/// in the order of \p Depth, ties by index. \p Behind: a surface, as of \c
+/// blend, whose depths are compared with these; null for none.
 Reordered blendInOrder(const std::vector<Splat<double>> &Splats, int Width,
-                       int Height, const Options &O, const PixelDepth &Depth);
+                       int Height, const Options &O, const PixelDepth &Depth,
+                       const Surface<double> *Behind = nullptr);
 
 /// The depth at which a pixel's ray is deepest in a Gaussian, as StopThePop has
 /// it (Radl et al. 2024): t = r' S r0 / r' S r for the ray t r, the mean r0 and

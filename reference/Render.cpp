@@ -3,6 +3,7 @@
 #include "Walk.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vorion::reference {
 
@@ -14,7 +15,7 @@ template <typename Real> double Picture<Real>::doubtfulShare() const {
 
 template <typename Real>
 Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
-                    int Height, const Options &O) {
+                    int Height, const Options &O, const Surface<Real> *Behind) {
   Picture<Real> P;
   P.Width = Width;
   P.Height = Height;
@@ -38,18 +39,30 @@ Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
     uint64_t TileBlends = 0, TileWalked = 0, TileSaturated = 0;
     for (int Y = Area.Y0; Y < Area.Y1; ++Y)
       for (int X = Area.X0; X < Area.X1; ++X) {
-        glm::vec<3, Real> Color(0);
-        const PixelEnd<Real> End =
-            Walk.pixel(List, X, Y, [&](const Contribution<Real> &C) {
-              Color += List[C.Entry].Color * (C.Alpha * C.T);
-              ++TileBlends;
-            });
         const auto At =
             static_cast<std::size_t>(Y) * static_cast<std::size_t>(Width) +
             static_cast<std::size_t>(X);
-        P.Render[At] = Color + End.T * Background;
+        const bool IsCovered = Behind && std::isfinite(Behind->Depths[At]);
+        glm::vec<3, Real> Color(0);
+        const PixelEnd<Real> End = Walk.pixel(
+            List, X, Y,
+            [&](const Contribution<Real> &C) {
+              Color += List[C.Entry].Color * (C.Alpha * C.T);
+              ++TileBlends;
+            },
+            IsCovered ? hidingKeys(*Behind, At, O.DepthBits) : HidingKeys{},
+            Behind && !Behind->Layers.empty()
+                ? std::span<const Layer<Real>>(Behind->Layers[At])
+                : std::span<const Layer<Real>>(),
+            [&](const Layer<Real> &L, Real T) {
+              Color += L.Color * (L.Alpha * T);
+            });
+        P.Render[At] =
+            Color + End.T * (IsCovered ? Behind->Colors[At] : Background);
         P.Transmittance[At] = End.T;
         P.Doubts[At] = End.Doubts;
+        if (Behind && !Behind->Doubtful.empty() && Behind->Doubtful[At])
+          P.Doubts[At] |= DoubtSurface;
         P.Last[At] = End.Last;
         P.Stop[At] = End.Stop;
         TileWalked += End.Walked;
@@ -67,19 +80,20 @@ Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
 
 template <typename Real>
 Picture<Real> render(const Gaussians<Real> &G, const Camera<Real> &C,
-                     const Options &O) {
-  return blend(project(G, C, O), C.Width, C.Height, O);
+                     const Options &O, const Surface<Real> *Behind) {
+  return blend(project(G, C, O), C.Width, C.Height, O, Behind);
 }
 
 template struct Picture<float>;
 template struct Picture<double>;
 template Picture<float> blend(const std::vector<Splat<float>> &, int, int,
-                              const Options &);
+                              const Options &, const Surface<float> *);
 template Picture<double> blend(const std::vector<Splat<double>> &, int, int,
-                               const Options &);
+                               const Options &, const Surface<double> *);
 template Picture<float> render(const Gaussians<float> &, const Camera<float> &,
-                               const Options &);
+                               const Options &, const Surface<float> *);
 template Picture<double> render(const Gaussians<double> &,
-                                const Camera<double> &, const Options &);
+                                const Camera<double> &, const Options &,
+                                const Surface<double> *);
 
 } // namespace vorion::reference

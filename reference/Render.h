@@ -16,8 +16,10 @@ enum Doubt : uint8_t {
   DoubtThreshold = 1,
   /// A visible Gaussian has a z so near the midpoint of two fp32 numbers (\c
   /// Splat::DepthSlack) that it may be rounded to either, with a different
-  /// blend order.
+  /// blend order, or on either side of a surface.
   DoubtOrder = 2,
+  /// Another triangle of a surface, or another texel, may be seen.
+  DoubtSurface = 4,
 };
 
 /// Relative width of the doubtful band around a threshold.
@@ -44,17 +46,42 @@ template <typename Real> struct Picture {
   double doubtfulShare() const;
 };
 
+/// A transparent surface in a pixel. It is in front of Gaussians that have its
+/// depth or a larger one, in the bits that order them.
+template <typename Real> struct Layer {
+  double Depth; ///< along the camera's axis
+  glm::vec<3, Real> Color;
+  Real Alpha;
+  double Slack = 0; ///< by how much a machine's depth may differ
+};
+
+/// An opaque surface in the pixels of a picture, rows from the top, and
+/// transparent ones in front of it. It hides what has its depth or a larger
+/// one, in the bits that order Gaussians.
+template <typename Real> struct Surface {
+  std::vector<double> Depths; ///< along the camera's axis; infinite: none
+  std::vector<glm::vec<3, Real>> Colors;
+  /// By how much a machine's depth may differ; empty: not at all.
+  std::vector<double> Slack;
+  std::vector<bool> Doubtful; ///< pixels that show DoubtSurface; may be empty
+  /// Of each pixel, the nearest first; empty if no pixel has any. The
+  /// transmittance cut-off does not apply to them.
+  std::vector<std::vector<Layer<Real>>> Layers;
+};
+
 /// Blends \p Splats, the result of \c project with the same \p O. In fp32 every
 /// operation is rounded as docs/abi.md states for the rasterizer, with a
 /// correctly rounded exponential. \c Walked counts entries of the lists of \c
-/// tileLists for the support and tile size of \p O.
+/// tileLists for the support and tile size of \p O. \p Behind: a surface
+/// that takes the background's place where it is; null for none.
 template <typename Real>
 Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
-                    int Height, const Options &O);
+                    int Height, const Options &O,
+                    const Surface<Real> *Behind = nullptr);
 
 /// \c project followed by \c blend.
 template <typename Real>
 Picture<Real> render(const Gaussians<Real> &G, const Camera<Real> &C,
-                     const Options &O);
+                     const Options &O, const Surface<Real> *Behind = nullptr);
 
 } // namespace vorion::reference

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 using namespace vorion::reference;
 
@@ -54,6 +55,66 @@ TEST(Render, FrontCoversBackWhateverTheOrderOfTheInput) {
   EXPECT_NEAR(P.Render[at(3, 4)].r, 0.5, 1e-3);
   EXPECT_NEAR(P.Render[at(3, 4)].b, 0.5 * 0.6, 1e-3);
   EXPECT_EQ(P.Last[at(3, 4)], 0);
+}
+
+TEST(Render, ASurfaceHidesWhatHasItsDepthOrMore) {
+  Gaussians<double> G;
+  addRound(G, {0, 0, 3}, 30, 0.6, {0, 0, 1});
+  addRound(G, {0, 0, 2}, 30, 0.5, {1, 0, 0});
+  Options O;
+  O.Background = {0, 0, 8};
+  Surface<double> Behind;
+  Behind.Depths.assign(std::size_t{Side} * Side, 2.5);
+  Behind.Colors.assign(std::size_t{Side} * Side, {0, 1, 0});
+  Behind.Depths[at(0, 0)] = std::numeric_limits<double>::infinity();
+  Behind.Depths[at(1, 0)] = 3; // a tie: the surface is in front
+  Behind.Depths[at(2, 0)] = std::nextafter(3.0F, 4.0F);
+  Behind.Depths[at(3, 0)] = 1;
+  const auto P = render(G, frontCamera(Side, Side, 50), O, &Behind);
+  const auto Near = [&](std::size_t At, double R, double Green, double B) {
+    EXPECT_NEAR(P.Render[At].r, R, 2e-3) << At;
+    EXPECT_NEAR(P.Render[At].g, Green, 2e-3) << At;
+    EXPECT_NEAR(P.Render[At].b, B, 2e-2) << At;
+  };
+  Near(at(5, 5), 0.5, 0.5, 0);
+  Near(at(0, 0), 0.5, 0, 0.3 + 0.2 * 8);
+  Near(at(1, 0), 0.5, 0.5, 0);
+  Near(at(2, 0), 0.5, 0.2, 0.3);
+  Near(at(3, 0), 0, 1, 0);
+  EXPECT_EQ(P.Doubts[at(5, 5)], 0);
+  EXPECT_EQ(P.Transmittance[at(3, 0)], 1);
+}
+
+TEST(Render, LayersLieBetweenGaussians) {
+  Gaussians<double> G;
+  addRound(G, {0, 0, 3}, 30, 0.6, {0, 0, 1});
+  addRound(G, {0, 0, 2}, 30, 0.5, {1, 0, 0});
+  Surface<double> S;
+  S.Depths.assign(std::size_t{Side} * Side,
+                  std::numeric_limits<double>::infinity());
+  S.Colors.resize(S.Depths.size());
+  S.Layers.resize(S.Depths.size());
+  const glm::dvec3 Green(0, 1, 0), White(1, 1, 1);
+  S.Layers[at(5, 5)] = {{2.5, Green, 0.25}};
+  // A tie: the layer is in front. Behind all.
+  S.Layers[at(6, 5)] = {{1, White, 0.5}, {3, Green, 1}};
+  S.Layers[at(7, 5)] = {{4, Green, 0.5}};
+  Options O;
+  O.Background = {0, 0, 8};
+  const auto P = render(G, frontCamera(Side, Side, 50), O, &S);
+  const auto Near = [&](std::size_t At, double R, double Green, double B) {
+    EXPECT_NEAR(P.Render[At].r, R, 2e-3) << At;
+    EXPECT_NEAR(P.Render[At].g, Green, 2e-3) << At;
+    EXPECT_NEAR(P.Render[At].b, B, 2e-2) << At;
+  };
+  Near(at(4, 5), 0.5, 0, 0.3 + 0.2 * 8);
+  Near(at(5, 5), 0.5, 0.125, 0.375 * 0.6 + 0.15 * 8);
+  Near(at(6, 5), 0.5 + 0.25, 0.5 + 0.25, 0.5);
+  Near(at(7, 5), 0.5, 0.1, 0.3 + 0.1 * 8);
+  // The cut-off ends the Gaussians of a pixel, and no layer.
+  O.Cutoff = 0.6;
+  const auto Ended = render(G, frontCamera(Side, Side, 50), O, &S);
+  EXPECT_EQ(Ended.Render[at(5, 5)], glm::dvec3(0, 0.25, 0.75 * 8));
 }
 
 TEST(Render, AlphaEndsAt99PerCent) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -33,6 +34,7 @@ template <typename Real> struct Candidate {
   glm::vec<2, Real> Mean, Extent;
   glm::vec<3, Real> Conic, Color;
   Real Opacity;
+  uint32_t Key;                     ///< that orders it
   uint32_t NearestKey, FarthestKey; ///< that z may be rounded to
   Rect Official;                    ///< pixels, for Official16
   Border Edge;                      ///< for supports with a border
@@ -138,12 +140,31 @@ template <typename Real> struct Contribution {
   Real T;             ///< transmittance in front of it
 };
 
+/// The keys from which on a surface hides Gaussians; and those that a machine
+/// may round it to.
+struct HidingKeys {
+  uint32_t From = ~0U, Nearest = ~0U, Farthest = ~0U;
+};
+
+/// Of the surface in pixel \p At, where there is one.
+template <typename Real>
+HidingKeys hidingKeys(const Surface<Real> &S, std::size_t At, int DepthBits) {
+  const double Depth = S.Depths[At], Slack = S.Slack.empty() ? 0 : S.Slack[At];
+  return {orderKey(Depth, DepthBits), orderKey(Depth - Slack, DepthBits),
+          orderKey(Depth + Slack, DepthBits)};
+}
+
 /// The final state of a pixel.
 template <typename Real> struct PixelEnd {
   Real T = 1;
   uint8_t Doubts = 0;
   int32_t Last = -1, Stop = -1; ///< as in \c Picture
   uint64_t Walked = 0;          ///< list entries looked at
+};
+
+/// Pixels without layers.
+struct NoLayers {
+  template <typename Real> void operator()(const Layer<Real> &, Real) const {}
 };
 
 /// The lists of a picture's tiles, and their traversal by pixels.
@@ -184,15 +205,34 @@ public:
   }
 
   /// Traverses the list of pixel (\p X, \p Y) front to back and calls \p Blend
-  /// with every \c Contribution.
-  template <typename Function>
+  /// with every \c Contribution. A Gaussian whose key is that of \p Hidden or
+  /// more is hidden by a surface. \p Layers are in front of that, and \p
+  /// BlendLayer gets each with the transmittance in front of it.
+  template <typename Function, typename LayerFunction = NoLayers>
   PixelEnd<Real> pixel(const std::vector<Candidate<Real>> &List, int X, int Y,
-                       Function Blend) const {
+                       Function Blend, const HidingKeys &Hidden = {},
+                       std::span<const Layer<Real>> Layers = {},
+                       LayerFunction BlendLayer = {}) const {
     const Real Px = Real(X) + Real(0.5), Py = Real(Y) + Real(0.5);
     PixelEnd<Real> P;
     DepthOrder Order;
+    const auto KeyOf = [&](const Layer<Real> &L) {
+      return orderKey(L.Depth, Settings.DepthBits);
+    };
+    auto NextLayer = Layers.begin();
+    const auto BlendLayersUpTo = [&](uint32_t Key) {
+      for (; NextLayer != Layers.end() && KeyOf(*NextLayer) <= Key;
+           ++NextLayer) {
+        BlendLayer(*NextLayer, P.T);
+        P.T *= 1 - NextLayer->Alpha;
+      }
+    };
     for (const Candidate<Real> &C : List) {
-      P.Walked += C.Listed;
+      const bool IsHidden = C.Key >= Hidden.From;
+      if (IsHidden && C.NearestKey >= Hidden.Farthest)
+        break;
+      BlendLayersUpTo(C.Key);
+      P.Walked += C.Listed && !IsHidden;
       const Real Dx = C.Mean.x - Px, Dy = C.Mean.y - Py;
       const bool Inside = inSupport(C, Dx, Dy, X, Y);
       const bool EdgeInDoubt =
@@ -213,6 +253,16 @@ public:
         P.Doubts |= DoubtThreshold;
       if (!Inside || Alpha < Least)
         continue;
+      if ((C.NearestKey < Hidden.Farthest && C.FarthestKey >= Hidden.Nearest) ||
+          std::ranges::any_of(Layers, [&](const Layer<Real> &L) {
+            return C.NearestKey <
+                       orderKey(L.Depth + L.Slack, Settings.DepthBits) &&
+                   C.FarthestKey >=
+                       orderKey(L.Depth - L.Slack, Settings.DepthBits);
+          }))
+        P.Doubts |= DoubtOrder;
+      if (IsHidden)
+        continue;
       if (Order.doubtful(C.NearestKey, C.FarthestKey, C.Index))
         P.Doubts |= DoubtOrder;
       const Real Next = P.T * (1 - Alpha);
@@ -227,6 +277,7 @@ public:
       P.T = Next;
       P.Last = C.Index;
     }
+    BlendLayersUpTo(~0U);
     return P;
   }
 
@@ -239,6 +290,7 @@ private:
     C.Conic = S.Conic;
     C.Color = S.Color;
     C.Opacity = S.Opacity;
+    C.Key = orderKey(double(S.Depth), Settings.DepthBits);
     C.NearestKey = orderKey(double(S.Depth) - S.DepthSlack, Settings.DepthBits);
     C.FarthestKey =
         orderKey(double(S.Depth) + S.DepthSlack, Settings.DepthBits);

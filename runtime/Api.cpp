@@ -80,13 +80,14 @@ Failure openDevice(std::span<const vx_option> Given, vx_device **Device) {
   isasim::Config Config = isasim::defaultMachine();
   if (Failure Failed = Options.machine(Config))
     return Failed;
-  auto Machine = isasim::Machine::create(Config);
-  if (!Machine)
-    return cannotOpen(Options.ofMachine(Machine.error()));
+  // Its plugins have policies of the machine.
   auto Watch = isasim::Session::create(Options.Watch, "vorion",
                                        isasim::NamedBy::Variable);
   if (!Watch)
     return cannotOpen(Watch.error());
+  auto Machine = isasim::Machine::create(Config);
+  if (!Machine)
+    return cannotOpen(Options.ofMachine(Machine.error()));
   if (const auto Attached = (*Watch)->attach(**Machine); !Attached)
     return cannotOpen(Attached.error());
   *Device = new vx_device(std::move(*Machine), std::move(*Watch),
@@ -274,6 +275,50 @@ vx_status vx_mem_read(vx_device *device, uint32_t address, uint64_t size) {
     if (!device)
       return isNull("device");
     return device->Impl.hostRead(address, size);
+  });
+}
+
+vx_status vx_command_begin(vx_device *device, const uint64_t *after,
+                           uint32_t num_after, const uint64_t *host_after,
+                           uint32_t num_host_after) {
+  return guarded([&]() -> Failure {
+    if (!device || (num_after && !after) || (num_host_after && !host_after))
+      return isNull(!device               ? "device"
+                    : num_after && !after ? "after"
+                                          : "host_after");
+    return device->Impl.beginCommand(
+        {{after, after + num_after},
+         {host_after, host_after + num_host_after}});
+  });
+}
+
+vx_status vx_command_end(vx_device *device, uint64_t *number) {
+  return guarded([&]() -> Failure {
+    if (!device || !number)
+      return isNull(device ? "number" : "device");
+    return device->Impl.endCommand(*number);
+  });
+}
+
+vx_status vx_command_copy(vx_device *device, vx_copy_kind kind,
+                          uint32_t address, uint32_t from, uint64_t size) {
+  return guarded([&]() -> Failure {
+    if (!device)
+      return isNull("device");
+    if (kind > VX_COPY_FILL)
+      return badArgument(fmt::format("kind {} of a copy, expected 0 to {}",
+                                     static_cast<unsigned>(kind),
+                                     static_cast<unsigned>(VX_COPY_FILL)));
+    return device->Impl.copied(
+        {static_cast<isasim::HostCopy::Kind>(kind), address, from, size});
+  });
+}
+
+vx_status vx_command_settle(vx_device *device) {
+  return guarded([&]() -> Failure {
+    if (!device)
+      return isNull("device");
+    return device->Impl.settle();
   });
 }
 

@@ -436,6 +436,64 @@ TEST_F(Runtime, CopiesFillsAndRangesAreChecked) {
             VX_ERROR_ARGUMENT);
 }
 
+TEST_F(Runtime, CommandsAreTimedByDmaEngines) {
+  uint64_t Number = 1;
+  // Not this machine.
+  EXPECT_EQ(Info.dma_engines, 0U);
+  EXPECT_EQ(vx_command_begin(Device, nullptr, 0, nullptr, 0), VX_OK);
+  EXPECT_EQ(vx_command_end(Device, &Number), VX_OK);
+  EXPECT_EQ(Number, 0U);
+  EXPECT_EQ(vx_command_begin(Device, nullptr, 1, nullptr, 0),
+            VX_ERROR_ARGUMENT);
+  EXPECT_STREQ(vx_last_error(), "after is NULL");
+
+  vx_device *Timed = nullptr;
+  ASSERT_EQ(vx_device_open(R"({"global_bytes": 8388608, "timing":
+                               {"enabled": 1, "host": {"dma_engines": 2}}})",
+                           &Timed),
+            VX_OK)
+      << vx_last_error();
+  vx_image *Kernels = nullptr;
+  ASSERT_EQ(vx_image_load_file(Timed, Elf, &Kernels), VX_OK);
+  ASSERT_EQ(vx_device_get_info(Timed, &Info), VX_OK);
+  EXPECT_EQ(Info.dma_engines, 2U);
+  uint32_t Store = 0, To = 0;
+  ASSERT_EQ(vx_image_find_kernel(Kernels, "store", &Store), VX_OK);
+  ASSERT_EQ(vx_mem_alloc(Timed, 1 << 20, &To), VX_OK);
+  const auto SecondsBehind = [&](const std::vector<uint64_t> &After) {
+    EXPECT_EQ(vx_command_begin(Timed, After.data(),
+                               static_cast<uint32_t>(After.size()), nullptr, 0),
+              VX_OK);
+    const uint32_t Args[] = {To, 100};
+    EXPECT_EQ(vx_start(Timed, Kernels, Store, &OneItem, Args, sizeof(Args)),
+              VX_OK);
+    vx_result Result{};
+    EXPECT_EQ(vx_wait(Timed, &Result), VX_OK);
+    EXPECT_EQ(vx_command_end(Timed, &Number), VX_OK);
+    EXPECT_NE(Number, 0U);
+    return Result.device_seconds;
+  };
+  SecondsBehind({});
+  const std::vector<char> Bytes(1 << 20);
+  // A MiB at 3,282 MB/s.
+  constexpr double CopySeconds = 319e-6;
+  EXPECT_EQ(vx_copy_to_device(Timed, To, Bytes.data(), Bytes.size()), VX_OK);
+  EXPECT_LT(SecondsBehind({}), CopySeconds / 2);
+  const uint64_t Copy = Number - 1;
+  EXPECT_GT(SecondsBehind({Copy}), CopySeconds / 2);
+  EXPECT_EQ(vx_command_copy(Timed, VX_COPY_FILL, To, 0, 1 << 20), VX_OK);
+  EXPECT_EQ(vx_command_settle(Timed), VX_OK);
+  const uint64_t Never = 1000;
+  EXPECT_EQ(vx_command_begin(Timed, &Never, 1, nullptr, 0), VX_ERROR_ARGUMENT);
+  EXPECT_STREQ(vx_last_error(),
+               "command 1000 has not been begun, expected a number from "
+               "vx_command_end");
+  EXPECT_EQ(vx_command_copy(Timed, VX_COPY_TO_DEVICE, 0, 0, 1),
+            VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_image_free(Kernels), VX_OK);
+  EXPECT_EQ(vx_device_close(Timed), VX_OK);
+}
+
 TEST_F(Runtime, CopiesReachTheRasterWindow) {
   const auto At = [](unsigned Core, unsigned Csr) {
     return VX_IO_RASTER + Core * VX_IO_RASTER_STRIDE +
@@ -469,6 +527,31 @@ TEST_F(Runtime, CopiesReachTheRasterWindow) {
   }
   EXPECT_EQ(vx_copy_to_device(Device, At(0, VX_CSR_VR_STATUS), Word, 4),
             VX_ERROR_ARGUMENT);
+}
+
+TEST(Device, TheRasterWindowHasAllCoresOfALargeMachine) {
+  vx_device *Large = nullptr;
+  ASSERT_EQ(vx_device_open(R"({"clusters": 1024, "sockets_per_cluster": 1,
+                               "cores_per_socket": 4, "stack_bytes": 16384})",
+                           &Large),
+            VX_OK)
+      << vx_last_error();
+  vx_device_info Info{};
+  EXPECT_EQ(vx_device_get_info(Large, &Info), VX_OK);
+  EXPECT_EQ(Info.cores, 4096U);
+  EXPECT_EQ(Info.rasterizers, 1024U);
+  // The word is the last core's, and no memory of a buffer.
+  const uint32_t Csr = VX_IO_RASTER + 4095 * VX_IO_RASTER_STRIDE +
+                       4 * (VX_CSR_VR_OUTPUT - VX_CSR_VR_STATUS);
+  EXPECT_LT(Csr, Info.global_base);
+  EXPECT_GE(Csr + VX_IO_RASTER_STRIDE, Info.global_base);
+  uint32_t Address = 0, Word = 0x12340, Read = 0;
+  EXPECT_EQ(vx_mem_alloc(Large, 64, &Address), VX_OK);
+  EXPECT_GE(Address, Info.global_base);
+  EXPECT_EQ(vx_copy_to_device(Large, Csr, &Word, 4), VX_OK) << vx_last_error();
+  EXPECT_EQ(vx_copy_from_device(Large, &Read, Csr, 4), VX_OK);
+  EXPECT_EQ(Read, Word);
+  EXPECT_EQ(vx_device_close(Large), VX_OK);
 }
 
 TEST_F(Runtime, ThreadsTakeTurns) {

@@ -67,12 +67,13 @@ vx_device_info Device::info() {
   Info.stack_bytes = C.StackBytes;
   Info.local_base = VX_LOCAL_BASE;
   Info.local_bytes = C.LocalBytes;
-  Info.global_base = VX_GLOBAL_BASE;
+  Info.global_base = isasim::globalBase(C);
   Info.global_bytes = isasim::globalBytes(C);
   Info.free_bytes = Memory.freeBytes();
   Info.largest_free_bytes = Memory.largestFree();
   Info.max_group_items = isasim::MaxGroupItems;
   Info.clock_mhz = C.Timing.ClockMhz;
+  Info.dma_engines = timesCopies() ? C.Timing.Host.DmaEngines : 0;
   return Info;
 }
 
@@ -148,17 +149,19 @@ Failure Device::globalRange(uint32_t Address, uint64_t Size,
       Address, Size, Ranges));
 }
 
-bool Device::isRasterWindow(uint32_t Address) {
-  return Address >= VX_IO_RASTER && Address < VX_GLOBAL_BASE;
+bool Device::isRasterWindow(uint32_t Address) const {
+  return Address >= VX_IO_RASTER &&
+         Address < isasim::globalBase(Machine->config());
 }
 
 template <typename Function>
 Failure Device::forRasterCsrs(uint32_t Address, uint64_t Size, Function Use) {
-  if (Address % 4 || Size % 4 || Size > VX_GLOBAL_BASE - Address)
+  const uint32_t End = isasim::globalBase(Machine->config());
+  if (Address % 4 || Size % 4 || Size > End - Address)
     return badArgument(fmt::format(
         "[{:#x}, +{:#x}), expected whole aligned words of the I/O window, "
         "[{:#x}, {:#x})",
-        Address, Size, VX_IO_RASTER, VX_GLOBAL_BASE));
+        Address, Size, VX_IO_RASTER, End));
   for (uint32_t Offset = 0; Offset != Size; Offset += 4) {
     const uint32_t At = Address + Offset - VX_IO_RASTER;
     const uint32_t Csr = VX_CSR_VR_STATUS + At % VX_IO_RASTER_STRIDE / 4;
@@ -185,6 +188,7 @@ Failure Device::copyIn(uint32_t To, const void *From, uint64_t Size) {
     return Failed;
   std::memcpy(Bytes, From, Size);
   Watch->hostWrote(To, Size);
+  timeCopy(isasim::HostCopy::Kind::ToDevice, To, Size);
   return {};
 }
 
@@ -203,6 +207,7 @@ Failure Device::copyOut(void *To, uint32_t From, uint64_t Size) {
     return Failed;
   std::memcpy(To, Bytes, Size);
   Watch->hostRead(From, Size);
+  timeCopy(isasim::HostCopy::Kind::FromDevice, From, Size);
   return {};
 }
 
@@ -217,6 +222,7 @@ Failure Device::copyWithin(uint32_t To, uint32_t From, uint64_t Size) {
   std::memmove(Target, Source, Size);
   Watch->hostRead(From, Size);
   Watch->hostWrote(To, Size);
+  timeCopy(isasim::HostCopy::Kind::OnDevice, To, Size, From);
   return {};
 }
 
@@ -237,6 +243,7 @@ Failure Device::fill(uint32_t To, const void *Pattern, uint32_t PatternSize,
   for (uint64_t At = 0; At < Size; At += PatternSize)
     std::memcpy(Bytes + At, Pattern, PatternSize);
   Watch->hostWrote(To, Size);
+  timeCopy(isasim::HostCopy::Kind::Fill, To, Size);
   return {};
 }
 
@@ -274,4 +281,68 @@ void Device::localUsed(uint64_t Bytes) {
   Lock Held(Mutex);
   waitForRun(Held);
   Watch->localUsed(Bytes);
+}
+
+bool Device::timesCopies() const {
+  const isasim::TimingConfig &T = Machine->config().Timing;
+  return T.Enabled && T.Host.DmaEngines != 0;
+}
+
+/// The caller has the lock, and there is no run.
+void Device::timeCopy(isasim::HostCopy::Kind What, uint32_t Address,
+                      uint64_t Bytes, uint32_t From) {
+  if (timesCopies())
+    Machine->copies({What, Address, From, Bytes},
+                    Order.value_or(isasim::CommandOrder{
+                        .After = {Machine->lastCommand()}, .HostAfter = {}}));
+}
+
+Failure Device::beginCommand(isasim::CommandOrder New) {
+  if (!timesCopies())
+    return {};
+  Lock Held(Mutex);
+  waitForRun(Held);
+  LastBefore = Machine->lastCommand();
+  for (const auto *Numbers : {&New.After, &New.HostAfter})
+    for (const uint64_t Number : *Numbers)
+      if (Number > LastBefore)
+        return badArgument(
+            fmt::format("command {} has not been begun, expected a number from "
+                        "vx_command_end",
+                        Number));
+  Order = std::move(New);
+  return {};
+}
+
+Failure Device::endCommand(uint64_t &Number) {
+  Number = 0;
+  if (!timesCopies())
+    return {};
+  Lock Held(Mutex);
+  waitForRun(Held);
+  Order.reset();
+  if (const uint64_t Sent = Machine->lastCommand(); Sent != LastBefore)
+    Number = Sent;
+  return {};
+}
+
+Failure Device::copied(const isasim::HostCopy &Copy) {
+  if (!timesCopies())
+    return {};
+  Lock Held(Mutex);
+  waitForRun(Held);
+  std::byte *Bytes = nullptr;
+  if (Failure Failed = globalRange(Copy.Address, Copy.Bytes, &Bytes))
+    return Failed;
+  timeCopy(Copy.What, Copy.Address, Copy.Bytes, Copy.From);
+  return {};
+}
+
+Failure Device::settle() {
+  if (!timesCopies())
+    return {};
+  Lock Held(Mutex);
+  waitForRun(Held);
+  Machine->settle();
+  return {};
 }

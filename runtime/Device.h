@@ -48,6 +48,14 @@ public:
   /// Tells them how much local memory the next run's kernel has.
   void localUsed(uint64_t Bytes);
 
+  /// \name Commands of the clock (vorion/runtime.h)
+  /// @{
+  Failure beginCommand(isasim::CommandOrder Order);
+  Failure endCommand(uint64_t &Number);
+  Failure copied(const isasim::HostCopy &Copy);
+  Failure settle();
+  /// @}
+
   /// Whether the next runs are profiled.
   void setProfiled(bool Profiled);
 
@@ -70,6 +78,9 @@ private:
   using Notice = void (isasim::Session::*)(uint32_t, uint64_t);
 
   void waitForRun(Lock &Held);
+  bool timesCopies() const;
+  void timeCopy(isasim::HostCopy::Kind What, uint32_t Address, uint64_t Bytes,
+                uint32_t From = 0);
   /// Observers hear of what the host does between runs only.
   void waitIfObserved(Lock &Held);
   void clockRuns(bool On);
@@ -77,7 +88,7 @@ private:
   Failure allocateLocked(uint64_t Size, const char *What, Allocator::End From,
                          uint32_t &Address, uint64_t Below = UINT64_MAX);
   /// Whether \p Address lies in the I/O window (docs/abi.md, "Memory map").
-  static bool isRasterWindow(uint32_t Address);
+  bool isRasterWindow(uint32_t Address) const;
   /// Calls Use(core, csr, offset) for each word of a range of the window, until
   /// it returns false.
   template <typename Function>
@@ -102,6 +113,9 @@ private:
   std::mutex Mutex;
   std::condition_variable Ended;
   Allocator Memory;
+  /// Of the command that was begun, and the last before it.
+  std::optional<isasim::CommandOrder> Order;
+  uint64_t LastBefore = 0;
   LoadedImage *Current = nullptr; ///< the image in the machine
   isasim::LaunchParts InUse;      ///< addresses of the run's parts
   /// Where memory begins that the run's stacks cover, if they cover any.

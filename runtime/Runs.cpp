@@ -179,6 +179,8 @@ void Device::launch(Lock &Held, LoadedImage &Image, const std::string &Name,
   if (Runner.joinable())
     Runner.join(); // it has ended: Running is false
   makeCurrent(Image);
+  if (Order)
+    Machine->orderLaunch(*Order);
   Watch->runBegins(Name, LaunchBlock);
   ConsoleText.clear();
   ConsoleDropped = 0;

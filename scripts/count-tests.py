@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Counts the tests of JUnit files, names the failed, groups the skipped by
-reason, and prints `N passed, N failed, N skipped` last.
+"""Counts the tests of JUnit files, names the failed with the end of their
+output, groups the skipped by reason, and prints `N passed, N failed, N skipped`
+last.
 
 usage: count-tests.py [--skips REGEX] [--times] RESULT.xml...
 --times: also the seconds that the tests of each layer took one by one, those
@@ -36,6 +37,15 @@ def layer(suite, case):
     return f"{suite}: {parts[0]}"
 
 
+def excerpt(case, most=12):
+    """The last command of a test of lit, the last failure of a GoogleTest, or the last lines of another test."""
+    element = case.find("failure")
+    text = (element.text if element is not None else "") or case.findtext("system-out") or ""
+    lines = [line for line in text.splitlines() if line.strip()]
+    begins = [i for i, line in enumerate(lines) if line.startswith("# RUN: ") or line.endswith(": Failure")]
+    return lines[begins[-1] if begins else -most:][:most]
+
+
 def print_times(seconds, counts):
     print("seconds of each layer's tests, one by one:")
     for name, taken in sorted(seconds.items(), key=lambda each: -each[1]):
@@ -66,7 +76,7 @@ def main():
                     print(f"FAILED {name}: skipped, and should not be ({why})")
             elif case.find("failure") is not None or case.find("error") is not None or case.get("status") == "fail":
                 failed += 1
-                print(f"FAILED {name}")
+                print(f"FAILED {name}", *excerpt(case), sep="\n    ")
             else:
                 passed += 1
     if args.times:

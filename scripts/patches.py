@@ -11,7 +11,7 @@ scripts/fetch-source.sh applies it. To change a series, edit commits, not patche
 
   scripts/patches.py verify [pocl|llvm]  checks headers, form, and that the patches apply
   scripts/patches.py port pocl FOLDER    counts the hunks that apply to another version's source
-  scripts/patches.py table               writes the tables of docs/pocl-patches.md; --check only compares
+  scripts/patches.py table               writes docs/tables/patches.md; --check only compares
 
 A commit's message is its patch's header, but for the line `Patch: KIND/NAME`.
 
@@ -30,7 +30,7 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 SERIES = {"pocl": "runtime/pocl/patches", "llvm": "llvm-backend/patches"}
-PAGE = "docs/pocl-patches.md"
+PAGE = "docs/tables/patches.md"
 KINDS = ("upstream", "vorion")
 # Lines of context: the fewest that tell `git apply` that a hunk is not at a file's end.
 CONTEXT = 1

@@ -53,7 +53,7 @@ ctest --test-dir "$Build" -j "$Jobs" -E '^lit\.' --output-on-failure --output-ju
 printf '[%s] lit tests\n' "$(elapsed)"
 python3 /usr/lib/llvm-19/build/utils/lit/lit.py -v -j "$Jobs" --param "build=$Build" \
   --xunit-xml-output "$Results/lit.xml" "$Root/test" >"$Logs/lit.log" 2>&1 ||
-  { Failed=1; tail -n 60 "$Logs/lit.log"; }
+  { Failed=1; tail -n 20 "$Logs/lit.log"; }
 
 # Of the time that is left the analysis of all files needs 30 %. The build with sanitizers needs 70 % of what it leaves,
 # and its tests the rest.
@@ -70,8 +70,9 @@ if [ -z "$Quick" ]; then
 fi
 
 printf '[%s] done\n' "$(elapsed)"
-# What may be missing is the private data, PyTorch, and the right to mount; and the sanitizer build has no OpenCL device.
-Skips='(no|\w+: no) \.\./shared/data|\w+: Missing required feature\(s\): (data|torch|own-mounts)$|asan: no OpenCL device'
+# What may be missing is the private data, PyTorch, peers (scripts/peers.sh), and the right to mount; and the sanitizer build
+# has no OpenCL device.
+Skips='(no|\w+: no) \.\./shared/data|\w+: Missing required feature\(s\): (data|torch|own-mounts|((python3-(pil|opencv)|colmap|ffmpeg|npm-[a-z0-9-]+)(, )?)+)$|asan: no OpenCL device'
 [ ! -e "$Unfinished" ] || Skips="$Skips|asan: programs that are not built"
 python3 "$Root/scripts/count-tests.py" --times --skips "$Skips" "$Results"/*.xml || Failed=1
 exit "$Failed"

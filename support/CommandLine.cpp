@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -80,13 +81,52 @@ std::string shortestCall(const CLI::App &App) {
       if (O->get_required() && O->get_positional() == Positional)
         Call += Positional
                     ? " " + upperCase(O->get_name())
-                    : fmt::format(" {} {}", O->get_name(), O->get_type_name());
+                    : fmt::format(" {} {}", O->get_name(), textOf(*O).Name);
   return Call;
 }
 
-/// What \p O takes, as help has it.
+/// What \p O takes, as help has it: "N (1..64)".
 std::string kindOf(const CLI::Option &O) {
-  return O.get_option_text().empty() ? O.get_type_name() : O.get_option_text();
+  const ValueText Text = textOf(O);
+  return Text.Range.empty() ? Text.Name
+                            : fmt::format("{} ({})", Text.Name, Text.Range);
+}
+
+/// --help on few screens: CLI11's usual page names exclusions and checks behind
+/// every option, which no screen is wide enough for.
+class HelpFormatter : public CLI::Formatter {
+public:
+  HelpFormatter() { column_width(32); }
+
+  /// What it takes alone.
+  std::string make_option_opts(const CLI::Option *O) const override {
+    const std::string Kind = kindOf(*O);
+    const std::string Required = O->get_required() && !O->get_positional()
+                                     ? " " + get_label("REQUIRED")
+                                     : "";
+    return (Kind.empty() || Kind.starts_with('[') ? Kind : " " + Kind) +
+           Required;
+  }
+  /// One empty line between groups, not two.
+  std::string make_group(std::string Group, bool IsPositional,
+                         std::vector<const CLI::Option *> Of) const override {
+    return CLI::Formatter::make_group(std::move(Group), IsPositional,
+                                      std::move(Of))
+        .substr(IsPositional ? 0 : 1);
+  }
+  /// Without the value that stands for none, {-}.
+  std::string make_option_name(const CLI::Option *O,
+                               bool IsPositional) const override {
+    const std::string Name =
+        O->get_name(/*positional=*/IsPositional, /*all_options=*/!IsPositional);
+    return Name.substr(0, Name.find('{'));
+  }
+};
+
+void format(CLI::App &App, const std::shared_ptr<HelpFormatter> &By) {
+  App.formatter(By);
+  for (CLI::App *Command : App.get_subcommands({}))
+    format(*Command, By);
 }
 
 std::string emptyValueOf(const CLI::Option &O) {
@@ -219,7 +259,7 @@ std::string describe(const CLI::App &App, const CLI::ParseError &E) {
                  ? fmt::format("{}: {} values, expected at most {}",
                                O->get_name(), O->results().size(), Most)
                  : fmt::format("{}: a value is missing, expected {}",
-                               O->get_name(), O->get_type_name());
+                               O->get_name(), kindOf(*O));
     }
     return Said;
   case CLI::ExitCodes::ConversionError:
@@ -273,7 +313,7 @@ std::string problemOf(const CLI::App &App, const CLI::ParseError &E,
       Left, [](const std::string &Word) { return Word != "--"; });
   if (const CLI::Option *O = tookAnOption(Inner); O && Surplus != Left.end())
     return fmt::format("{}: a value is missing, expected {} {}", O->get_name(),
-                       O->get_type_name(), SeeHelp);
+                       kindOf(*O), SeeHelp);
   if (Surplus != Left.end())
     return fmt::format("unexpected argument {} {}", *Surplus, SeeHelp);
   // A check of ours says itself what it expects.
@@ -362,6 +402,38 @@ OptionValue valueOf(const CLI::Option &O) {
   return {};
 }
 
+ValueText textOf(const CLI::Option &O) {
+  // CLI11 has the type, and behind a colon what checks call themselves.
+  std::string Type = O.get_type_name(), Range;
+  if (const std::size_t Colon = Type.find(':'); Colon != std::string::npos) {
+    Range = Type.substr(Colon + 1);
+    Type.resize(Colon);
+  }
+  if (!O.get_option_text().empty())
+    return {O.get_option_text(), Range};
+  if (const OptionValue Of = valueOf(O);
+      Of.What == OptionValue::Type::OneOf &&
+      Type == CLI::detail::type_name<std::string>())
+    return {fmt::format("{}", fmt::join(Of.Words, "|")), Range};
+  if (Type == CLI::detail::type_name<int>() ||
+      Type == CLI::detail::type_name<unsigned>())
+    return {"N", Range};
+  return {Type == CLI::detail::type_name<float>() ? "X" : Type, Range};
+}
+
+HelpGroup::HelpGroup(CLI::App &App, std::string Title)
+    : App(App), Title(std::move(Title)), First(App.get_options().size()) {}
+
+HelpGroup::~HelpGroup() { next(""); }
+
+void HelpGroup::next(std::string Following) {
+  const auto All = App.get_options();
+  for (; First < All.size(); ++First)
+    if (All[First]->nonpositional() && All[First]->get_group() == "Options")
+      All[First]->group(Title);
+  Title = std::move(Following);
+}
+
 std::vector<std::string> writingOptions(const CLI::App &App) {
   std::vector<std::string> Names;
   for (const CLI::Option *O : App.get_options())
@@ -435,6 +507,9 @@ std::optional<int> parseCommandLine(CLI::App &App,
     printOut("{}\n", definitionOf(App));
     return static_cast<int>(ExitCode::Ok);
   }
+  format(App, std::make_shared<HelpFormatter>());
+  if (Arguments.empty() && App.get_require_subcommand_min() > 0)
+    Arguments = {"--help"};
   if (auto Wrong = takeHelpCommand(App, Arguments))
     return reportError(App.get_name(),
                        {"", std::move(*Wrong), ExitCode::Usage});

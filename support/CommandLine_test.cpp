@@ -70,9 +70,9 @@ TEST(CommandLine, ValuesThatAreNearlyRightAreNamed) {
 TEST(CommandLine, EmptyValuesAreRefused) {
   for (const auto &[Option, Kind] : {std::pair("--json", "FILE"),
                                      {"--threads", "N"},
-                                     {"--clock", "UINT"},
-                                     {"--path", "TEXT"},
-                                     {"--voltage", "FLOAT"},
+                                     {"--clock", "N"},
+                                     {"--path", "raster|simt"},
+                                     {"--voltage", "X"},
                                      {"--set", "TEXT"}}) {
     const std::string Expected = fmt::format(
         "tool: error: {}: an empty value, expected {}", Option, Kind);
@@ -191,8 +191,7 @@ TEST(CommandLine, OtherMistakesAreToldAsTheyAre) {
   EXPECT_EQ(said({"train"}),
             "tool: error: CAPTURE is missing, expected: tool train CAPTURE "
             "(see --help)\n");
-  EXPECT_EQ(said({}), "tool: error: no subcommand, expected one of render, "
-                      "train (see --help)\n");
+  EXPECT_EQ(said({}), ""); // but help, on standard output
   EXPECT_EQ(said({"--set", "a=b"}),
             "tool: error: no subcommand, expected one of render, train (see "
             "--help)\n");

@@ -54,23 +54,6 @@ std::vector<std::string> namesOf(const CLI::App &App,
   return Names;
 }
 
-/// What help calls the value, and the range that a check adds after a colon:
-/// "INT:INT in [1 - 64]".
-struct ValueText {
-  std::string Name, Range;
-};
-
-ValueText textOf(const CLI::Option &O) {
-  if (!O.get_option_text().empty())
-    return {O.get_option_text(), ""};
-  const std::string Text = O.get_type_name();
-  const std::size_t Colon = Text.find(':');
-  const std::size_t In = Text.find(" in [");
-  if (Colon == std::string::npos || In == std::string::npos)
-    return {Text, ""};
-  return {Text.substr(0, Colon), Text.substr(In + 4)};
-}
-
 Json toJson(const CLI::App &App, const CLI::Option &O) {
   const OptionValue Value = valueOf(O);
   const ValueText Text = textOf(O);

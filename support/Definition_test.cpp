@@ -24,7 +24,7 @@ TEST(Definition, SaysOfEachOptionWhatItTakes) {
   writesFile(Draw->add_option("-o,--output", Text, "Where."), {".png", ".pfm"});
   CLI::Option *Fast = Draw->add_flag("--fast", Flag, "Soon.");
   Draw->add_option("--times", Number, "Often.")
-      ->check(CLI::Range(1, 64))
+      ->check(isBetween(1, 64))
       ->needs(Fast);
   Draw->add_flag("--why{plan}", Text, "Say.")
       ->option_text("[=measure]")
@@ -63,8 +63,8 @@ TEST(Definition, SaysOfEachOptionWhatItTakes) {
       "required": false, "repeats": false, "excludes": ["--why"]})"));
   EXPECT_EQ(Of("--times"),
             ownJson<Json>(R"({"names": ["--times"], "help": "Often.",
-      "value": {"name": "INT", "kind": "any", "optional": false,
-      "written": false, "range": "[1 - 64]"},
+      "value": {"name": "N", "kind": "any", "optional": false,
+      "written": false, "range": "1..64"},
       "required": false, "repeats": false, "needs": ["--fast"]})"));
   EXPECT_EQ(Of("--why"), ownJson<Json>(R"({"names": ["--why"], "help": "Say.",
       "value": {"name": "[=measure]", "kind": "one-of", "optional": true,

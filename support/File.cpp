@@ -1,6 +1,7 @@
 #include "vorion/support/File.h"
 
 #include "Descriptor.h"
+#include "vorion/support/Hash.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -74,9 +75,12 @@ Expected<OpenFile> openFile(const std::string &Path, bool OnlyRegular) {
   return O;
 }
 
-Expected<std::vector<std::byte>> readAll(const std::string &Path,
-                                         const Expected<OpenFile> &Opened,
-                                         uint64_t Most) {
+/// Gives the bytes of \p Opened to \p Take, a chunk at a time. Before, \p Begin
+/// gets their number if the file says it, else 0.
+template <typename Beginning, typename Taking>
+Expected<Success> readChunks(const std::string &Path,
+                             const Expected<OpenFile> &Opened, uint64_t Most,
+                             Beginning Begin, Taking Take) {
   if (!Opened)
     return Opened.error();
   const auto &[File, Info] = *Opened;
@@ -90,22 +94,35 @@ Expected<std::vector<std::byte>> readAll(const std::string &Path,
   } else {
     Most = std::min(Most, StreamLimit);
   }
-  std::vector<std::byte> Bytes;
-  if (SaysSize)
-    Bytes.reserve(static_cast<std::size_t>(Info.st_size));
+  Begin(SaysSize ? static_cast<std::size_t>(Info.st_size) : 0);
   std::vector<std::byte> Chunk(std::size_t{1} << 16);
+  uint64_t Read = 0;
   for (;;) {
     const auto Got = readSome(File.number(), Chunk.data(), Chunk.size());
     if (!Got)
       return cannot(Path, "read", errno);
     if (*Got == 0)
-      return Bytes;
-    if (Bytes.size() + *Got > Most)
+      return Success{};
+    Read += *Got;
+    if (Read > Most)
       return Error{
           Path, fmt::format("more than {0} bytes, expected at most {0}", Most)};
-    Bytes.insert(Bytes.end(), Chunk.begin(),
-                 Chunk.begin() + static_cast<std::ptrdiff_t>(*Got));
+    Take(std::span<const std::byte>(Chunk.data(), *Got));
   }
+}
+
+Expected<std::vector<std::byte>> readAll(const std::string &Path,
+                                         const Expected<OpenFile> &Opened,
+                                         uint64_t Most) {
+  std::vector<std::byte> Bytes;
+  const auto All = readChunks(
+      Path, Opened, Most, [&](std::size_t Size) { Bytes.reserve(Size); },
+      [&](std::span<const std::byte> Chunk) {
+        Bytes.insert(Bytes.end(), Chunk.begin(), Chunk.end());
+      });
+  if (!All)
+    return All.error();
+  return Bytes;
 }
 
 } // namespace
@@ -124,6 +141,17 @@ Expected<std::vector<std::byte>> readFile(const std::string &Path,
 Expected<std::vector<std::byte>> readRegularFile(const std::string &Path,
                                                  uint64_t Most) {
   return readAll(Path, openFile(Path, /*OnlyRegular=*/true), Most);
+}
+
+Expected<uint64_t> xxh3OfFile(const std::string &Path) {
+  Xxh3 Hash;
+  const auto All = readChunks(
+      Path, openFile(Path, /*OnlyRegular=*/true), UINT64_MAX,
+      [](std::size_t) {},
+      [&](std::span<const std::byte> Chunk) { Hash.add(Chunk); });
+  if (!All)
+    return All.error();
+  return Hash.value();
 }
 
 Expected<std::vector<std::byte>> readStart(const std::string &Path,

@@ -10,8 +10,16 @@ std::string fnv1a64(std::string_view Bytes) {
   return fmt::format("{:016x}", fnv1a(Bytes));
 }
 
-uint64_t xxh3(std::span<const std::byte> Bytes) {
-  return XXH3_64bits(Bytes.data(), Bytes.size());
+struct Xxh3::State {
+  XXH3_state_t All;
+};
+
+Xxh3::Xxh3() : S(std::make_shared<State>()) { XXH3_64bits_reset(&S->All); }
+
+void Xxh3::add(std::span<const std::byte> Bytes) {
+  XXH3_64bits_update(&S->All, Bytes.data(), Bytes.size());
 }
+
+uint64_t Xxh3::value() const { return XXH3_64bits_digest(&S->All); }
 
 } // namespace vorion

@@ -65,7 +65,8 @@ int serve(const std::function<Response(std::string_view)> &Answer) {
 }
 
 /// Waits for the process that serves, and ends it when the client is gone,
-/// whatever it is doing. Nothing is open but what tells the client.
+/// whatever it is doing. What it runs ends with it. Nothing is open but what
+/// tells the client.
 int watch(pid_t Server) {
   ::close(STDIN_FILENO);
   ::close_range(STDERR_FILENO + 1, ~0U, 0);
@@ -73,8 +74,7 @@ int watch(pid_t Server) {
                    {::pidfd_open(Server, 0), POLLIN, 0}};
   while (::poll(Ends, std::size(Ends), -1) < 0 && errno == EINTR) {
   }
-  if (Ends[0].revents)
-    ::kill(Server, SIGKILL);
+  ::kill(-Server, SIGKILL);
   ServerEnd End;
   while (::waitpid(Server, &End.WaitStatus, 0) < 0 && errno == EINTR) {
   }
@@ -108,6 +108,8 @@ int serveCalls(const std::function<Response(std::string_view)> &Answer) {
   const pid_t Server = ::fork();
   if (Server < 0)
     return 1;
+  // A process group with what it runs, whichever process comes first.
+  ::setpgid(Server, Server);
   return Server == 0 ? serve(Answer) : watch(Server);
 }
 

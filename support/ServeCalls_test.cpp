@@ -7,10 +7,14 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <optional>
+#include <poll.h>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
+extern "C" { // which glibc 2.36 lacks
+#include <sys/pidfd.h>
+}
 
 namespace vorion {
 namespace {
@@ -59,6 +63,31 @@ TEST(ToolMessages, OtherTextsAreRefused) {
   EXPECT_FALSE(isReadInto(Got, std::string(Text.size(), '\xFF')));
 }
 
+struct CSample {
+  char *Name = nullptr;
+  size_t *Sizes = nullptr;
+  size_t Count = 0;
+};
+template <typename Archive> void visit(Archive &A, CSample &Value) {
+  A.text(Value.Name);
+  A.array(Value.Sizes, Value.Count);
+}
+
+// A leak is seen by the sanitizer build.
+TEST(ToolMessages, WhatWasReadIsReleased) {
+  std::string Name = "name";
+  std::vector<size_t> Sizes{1, 2};
+  CSample Sent{Name.data(), Sizes.data(), Sizes.size()}, Got;
+  EXPECT_TRUE(isReadInto(Got, textOf(Sent)));
+  EXPECT_STREQ(Got.Name, "name");
+  EXPECT_EQ(Got.Sizes[1], 2U);
+  FieldReleaser Releaser;
+  visit(Releaser, Got);
+  EXPECT_EQ(Got.Name, nullptr);
+  EXPECT_EQ(Got.Sizes, nullptr);
+  EXPECT_EQ(Got.Count, 0U);
+}
+
 /// The client's ends of a server.
 struct Served {
   int Calls = -1, End = -1;
@@ -92,6 +121,12 @@ Served serve() {
         ::_exit(3);
       if (Request == "abort")
         std::abort();
+      if (Request == "run") {
+        const pid_t Run = ::fork();
+        if (Run == 0)
+          ::pause();
+        return {std::to_string(Run)};
+      }
       return {std::string(Request) + takePrinted(), Request != "last"};
     }));
   }
@@ -110,6 +145,19 @@ TEST(ServeCalls, OneAfterTheOtherUntilTheLast) {
     EXPECT_EQ(Server.call(Word), Word + "(" + Word + ")");
   EXPECT_FALSE(Server.call("another").has_value());
   EXPECT_EQ(Server.end().WaitStatus, 0);
+}
+
+TEST(ServeCalls, WhatAServerRunsEndsWithIt) {
+  const Served Server = serve();
+  const auto Run = Server.call("run");
+  ASSERT_TRUE(Run);
+  const int Process = ::pidfd_open(std::stoi(*Run), 0);
+  ASSERT_GE(Process, 0);
+  EXPECT_FALSE(Server.call("abort").has_value());
+  pollfd Ended{Process, POLLIN, 0};
+  EXPECT_EQ(::poll(&Ended, 1, 60'000), 1);
+  ::close(Process);
+  Server.end();
 }
 
 TEST(ServeCalls, TheClientLearnsHowItEnded) {

@@ -4,6 +4,7 @@
 # A feature stands for a program or library of the build, or data beside the
 # repository; a test that needs one says REQUIRES: and is skipped where it is
 # missing, which is printed below.
+import glob
 import os
 import platform
 import shutil
@@ -38,9 +39,9 @@ config.substitutions += [
     ("%data", os.path.join(root, "..", "shared", "data")),
 ]
 
-programs = ["vorion-clang", "vorion-compiler", "vorion-cl-link", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
-            "isasim-decode-words", "isasim-raster-tiles",
-            "splat", "splat-check-gradients", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "splat-reader-work", "sample-radixsort", "sample-vecadd"]
+programs = ["vorion-clang", "vorion-compiler", "vorion-cl-link", "vorion-explorer", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
+            "isasim-decode-words", "isasim-raster-tiles", "isasim-raster-triangles",
+            "splat", "splat-check-gradients", "splat-figures", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "splat-reader-work", "sample-radixsort", "sample-vecadd"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
 features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
 # What makes calls of programs fail (test/faults).
@@ -62,9 +63,23 @@ features["spirv-as"] = shutil.which("spirv-as") or "spirv-as"
 features["csmith"] = shutil.which("csmith") or "csmith"
 features["chromium"] = shutil.which("chromium") or "chromium"
 features["mkdocs"] = shutil.which("mkdocs") or "mkdocs"
+features["mypy"] = shutil.which("mypy") or "mypy"
+features["python3-pip"] = "/usr/lib/python3/dist-packages/pip"
 features["lintian"] = shutil.which("lintian") or "lintian"
 for formatter_or_shell in ("mandoc", "man", "zsh", "fish"):
     features[formatter_or_shell] = shutil.which(formatter_or_shell) or formatter_or_shell
+# Packages of the npm registry, where scripts/peers.sh installs them.
+modules = os.path.join(root, "build", "peers", "node_modules")
+config.substitutions.append(("%modules", modules))
+for package, path in (("splat-transform", "@playcanvas/splat-transform"), ("gaussian-splats-3d", "@mkkellogg/gaussian-splats-3d"),
+                      ("playcanvas", "playcanvas"), ("babylonjs", "babylonjs-loaders")):
+    features[f"npm-{package}"] = os.path.join(modules, path)
+# Programs that splat calls.
+for program in ("colmap", "ffmpeg"):
+    features[program] = shutil.which(program) or program
+# Peers that read pictures, as Debian's packages install them for %debian-python.
+for package, path in (("python3-pil", "PIL"), ("python3-opencv", "cv2")):
+    features[package] = next(iter(glob.glob(f"/usr/lib/python3/dist-packages/{path}*")), f"/usr/lib/python3/dist-packages/{path}")
 features["mpirun"] = shutil.which("mpirun") or "mpirun"
 features["verilator"] = shutil.which("verilator") or "verilator"
 features["yosys"] = shutil.which("yosys") or "yosys"

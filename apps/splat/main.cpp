@@ -100,6 +100,10 @@ int run(std::vector<std::string> Arguments) {
     CLI::App *Command = App.add_subcommand(Name, Description);
     Command->footer(std::string(ExitCodeHelp));
     Commands.emplace_back(Command, Declare(*Command));
+    for (const std::string &Option : writingOptions(*Command))
+      if (CLI::Option *O = Command->get_option(Option);
+          O->get_group() == "Options")
+        O->group("Output");
   };
   Add("render", "Renders views of a scene", splat::addRender);
   Add("view",
@@ -124,6 +128,10 @@ int run(std::vector<std::string> Arguments) {
       splat::addConvert);
   Add("demo-scene", "Writes the project's demo scene and its cameras",
       splat::addDemoScene);
+  Add("capture",
+      "Makes a capture from photographs or a video: finds their poses by "
+      "COLMAP",
+      splat::addCapture);
   Add("train", "Trains a scene from photographs with poses", splat::addTrain);
   Add("eval", "Evaluates a scene on the photographs of a capture (PSNR, SSIM)",
       splat::addEval);

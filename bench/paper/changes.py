@@ -144,7 +144,7 @@ def text(data):
     out += _cross(data["rows"], ("scene", "size"), lambda row: _marked(row["gain"], lambda g: g >= NEAR_LINEAR, f"{row['gain']:.1f}x"))
     out += [paragraph("""**A larger picture** is the smallest change. A tile is the smallest job, and the longest list decides when all are
         done. Where one tile holds much of the scene, as in guitar front, even 16 times as many pixels do not suffice. Splitting such
-        tiles [gained nothing](../ideas.md#splitting-heavy-tiles)."""), ""]
+        tiles [gained nothing](../ideas-methods.md#splitting-heavy-tiles)."""), ""]
     out += [f"## The scaled machine is {joint.SCALED_GAIN:g} times as fast as the prototype", "",
             paragraph(f"""Frames a second, one after the other, of the first view of each scene. Its parts are eight times as many, and its clock
                 is 500 MHz for 530: that gives 7.55. More comes from memory alone."""), ""]

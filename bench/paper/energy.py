@@ -86,7 +86,7 @@ def claims_of(data):
 
 def text(data):
     out = [paragraph("""The chip is the paper's: cores and rasterizers, without L2, last-level cache and DRAM. A figure stands with what
-        5 and 95 % of 1,000 drawn worlds stay below ([how](../energy.md#how-sure-that-is)). A claim holds if even the 95 % keep to it,
+        5 and 95 % of 1,000 drawn worlds stay below ([how](../energy.md#uncertainty)). A claim holds if even the 95 % keep to it,
         does not hold if even the 5 % do not, and is open otherwise. *Peak*: the stage with the most power."""), ""]
     for machine in machines.PROTOTYPES:
         rows = [row for row in data["rows"] if row["machine"] == machine]

@@ -14,9 +14,10 @@ NAMED = (*PROTOTYPES, *SCALED.values())
 
 FOLDER = os.path.join("isasim", "configs")
 # Clusters and sockets a cluster, by rasterizers; the scaled machine's clusters of four sockets where they are enough.
-SHAPES = {1: (1, 1), 2: (1, 2), 4: (1, 4), 8: (2, 4), 16: (4, 4), 32: (8, 4), 64: (16, 4), 128: (32, 4)}
-# The simulator has room for 240 cores, so beyond this many rasterizers get fewer than four each.
-MOST_CORES = 128
+SHAPES = {1: (1, 1), 2: (1, 2), 4: (1, 4), **{count: (count // 4, 4) for count in (8, 16, 32, 64, 128, 256, 512, 1024)}}
+# Stacks of 64 KiB a lane would take more than there is above the image (docs/abi.md), so those of large machines are smaller.
+MOST_CORES_OF_LARGE_STACKS = 1024
+SMALL_STACKS = 16 << 10
 SMALL = {
     "one-core": {"clusters": 1, "sockets_per_cluster": 1, "cores_per_socket": 1},
     "twelve-cores": {"clusters": 2, "sockets_per_cluster": 2, "cores_per_socket": 3},
@@ -30,10 +31,11 @@ def parameters(name):
 
 
 def _of_rasterizers(count):
-    """`scaled` with so many rasterizers, each with its four cores while there is room; memory as it is."""
+    """`scaled` with so many rasterizers, each with its four cores; memory as it is."""
     clusters, sockets = SHAPES[count]
-    cores = min(parameters("scaled")["cores_per_socket"], MOST_CORES // count)
-    return {"machine": "scaled", "clusters": clusters, "sockets_per_cluster": sockets, "cores_per_socket": cores}
+    cores = parameters("scaled")["cores_per_socket"]
+    stacks = {"stack_bytes": SMALL_STACKS} if count * cores > MOST_CORES_OF_LARGE_STACKS else {}
+    return {"machine": "scaled", "clusters": clusters, "sockets_per_cluster": sockets, "cores_per_socket": cores, **stacks}
 
 
 def changed(name, **settings):

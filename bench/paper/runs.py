@@ -1,13 +1,10 @@
 """Runs of splat on a machine, each kept in a file of its own: what is there is not run again."""
 
-import array
-import collections
 import dataclasses
 import json
 import os
 import re
 import sys
-import zipfile
 from dataclasses import dataclass
 
 import machines
@@ -78,13 +75,12 @@ def file_name(parts):
     return re.sub(r"[^A-Za-z0-9_.-]+", "_", "-".join(part.lstrip("-") for part in parts))
 
 
-def trim(timed, whole=()):
-    """Drops what no section reads; of the stages that `whole` names, the rasterizers stay."""
+def trim(timed):
+    """Drops what no section reads."""
     timed["sum"].pop("activities", None)
     for stage in timed["stages"]:
         if "time" in stage:
-            keys = ("cycles", "dram", "rasterizers") if stage["name"] in whole else ("cycles", "dram")
-            stage["time"] = {key: stage["time"][key] for key in keys}
+            stage["time"] = {key: stage["time"][key] for key in ("cycles", "dram")}
 
 
 class Runs:
@@ -173,29 +169,12 @@ class Runs:
         except FileNotFoundError:
             return None
 
-    def lengths(self, scene, view):
-        """Entries of every tile's list, from the pairs that a render sorts."""
-        point = study.render(f"{scene.name}-{view}-lengths", scene, view, "--dump-pairs", "{out}.npz", keep=(".npz",))
-        self.measured([point])
-        lengths = collections.Counter(_column(study.file_of(self.folder, point, ".npz"), "tile"))
-        return [lengths[tile] for tile in range(tiles(scene, view))]
-
 
 def tiles(scene, view, side=64):
     """How many tiles of that side a view has."""
     with open(os.path.join(scenes.ROOT, scene.cameras), encoding="utf-8") as f:
         camera = next(c for c in json.load(f) if c["img_name"] == view)
     return -(-camera["width"] // side) * -(-camera["height"] // side)
-
-
-def _column(file, name):
-    """A one-dimensional array of 32-bit integers in an .npz file."""
-    with zipfile.ZipFile(file) as archive:
-        content = archive.read(name + ".npy")
-    header = 10 + int.from_bytes(content[8:10], "little")
-    if b"'<u4'" not in content[:header] and b"'<i4'" not in content[:header]:
-        raise Failed(f"{file}: {name} has no 32-bit integers, expected those of --dump-pairs")
-    return array.array("I", content[header:])
 
 
 def stage_cycles(result, stage):

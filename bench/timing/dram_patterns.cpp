@@ -1,5 +1,6 @@
 /// Request patterns through one DRAM channel, as JSON; --help has the options.
-/// bench/timing/dram.py compares with what other models say.
+/// bench/timing/dram.py and dram_ramulator.py compare with what other models
+/// say.
 ///
 /// Closed patterns: operations are issued in order; a read waits for one of the
 /// pattern's read slots, a write for room in the write queue, and later ones
@@ -8,6 +9,7 @@
 #include "timing/dram/AddressMap.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Tool.h"
 
@@ -77,6 +79,35 @@ Sequence twoStreams(uint64_t Apart, bool SecondWrites) {
   };
 }
 
+/// \p Length consecutive lines from a random one on, again and again; one
+/// burst in \p Every is written, none if that is 0.
+Sequence shortBursts(uint64_t Length, uint64_t Every) {
+  return [=, Draw = Random(), First = uint64_t{0}](uint64_t I) mutable {
+    if (I % Length == 0)
+      First = Draw() % (uint64_t{1} << 22);
+    return Operation{First + I % Length,
+                     Every != 0 && I / Length % Every == Every - 1};
+  };
+}
+
+/// Nine lines in ten are of 16 rows, the others of 256 MiB; one in \p Every is
+/// written, none if that is 0. Written lines go round the rows and columns, so
+/// that no line is written twice while a controller may still hold it.
+Sequence hotRows(uint64_t Every) {
+  return [Every, Draw = Random()](uint64_t I) mutable {
+    uint64_t Line = Draw() % (uint64_t{1} << 22);
+    uint64_t Hot = Draw() % 160;
+    if (Every != 0 && I % Every == Every - 1) {
+      const uint64_t Written = I / Every;
+      Line = Written;
+      Hot = (Written + Written / LinesOfRow) % 16;
+    }
+    const uint64_t Row = Hot < 144 ? Hot % 16 * 37 : Line / LinesOfRow;
+    return Operation{Row * LinesOfRow + Line % LinesOfRow,
+                     Every != 0 && I % Every == Every - 1};
+  };
+}
+
 /// A random row of bank 0 of eight: the digits of its number add up to it.
 Operation rowOfBank0(uint64_t Number) {
   uint64_t Sum = 0;
@@ -108,6 +139,15 @@ std::vector<Pattern> patterns() {
   All.push_back({"one_bank_random", 32, [Draw = Random()](uint64_t) mutable {
                    return rowOfBank0(Draw() % 8192);
                  }});
+  for (const uint64_t Length : {2U, 4U, 8U})
+    All.push_back(
+        {fmt::format("bursts_of_{}", Length), 32, shortBursts(Length, 0)});
+  All.push_back({"bursts_of_4_3_to_1", 32, shortBursts(4, 4)});
+  All.push_back({"hot_rows", 32, hotRows(0)});
+  All.push_back({"hot_rows_3_to_1", 32, hotRows(4)});
+  All.push_back({"random_9_to_1", 32, randomLines(10)});
+  All.push_back({"random_2_to_1", 32, randomLines(3)});
+  All.push_back({"random_2_to_1_8", 8, randomLines(3)});
   return All;
 }
 
@@ -127,6 +167,8 @@ public:
       : S(SIn), Decode(S.Map, S.Table), Channel(S.Table, S.Options),
         LinesOfWriteQueue(Channel.room(true)) {}
 
+  /// Writes what would be issued into \p List, and runs nothing.
+  void listTo(std::string &List) { Listed = &List; }
   void closed(const Pattern &P);
   /// Random reads at \p Load of the peak bandwidth, times as of a Poisson
   /// process.
@@ -139,6 +181,8 @@ private:
     uint64_t At, Id;
     Operation What;
   };
+  /// A line of a list of requests (--list).
+  void list(uint64_t At, const Operation &O);
   void submit(uint64_t At, uint64_t Id, const Operation &O) {
     const Location L = Decode(O.Line * LineBytes);
     Channel.submit({At, Id, O.Line, L.Where, O.IsWrite});
@@ -153,7 +197,16 @@ private:
   std::vector<Reply> Replies;     ///< of the last advance()
   std::vector<uint64_t> Latencies;
   uint64_t End = 0;
+  std::string *Listed = nullptr;
 };
+
+void Run::list(uint64_t At, const Operation &O) {
+  const Location L = Decode(O.Line * LineBytes);
+  *Listed +=
+      fmt::format("{} {} {} {} {} {} {}\n", At, O.IsWrite ? 1 : 0, O.Line,
+                  L.Where.Bank / S.Table.BanksPerGroup,
+                  L.Where.Bank % S.Table.BanksPerGroup, L.Where.Row, L.Column);
+}
 
 void Run::advance(uint64_t Until) {
   Replies.clear();
@@ -171,6 +224,12 @@ void Run::closed(const Pattern &P) {
   uint64_t ReadsOut = 0;
   uint64_t WritesInFront = 0;
   Sequence Next = P.At;
+  if (Listed) {
+    *Listed += fmt::format("{} {} {}\n", P.Name, P.ReadSlots, WriteSlots);
+    for (uint64_t I = 0; I != S.Requests; ++I)
+      list(0, Next(I));
+    return;
+  }
   Operation O = Next(0);
   const auto HasSlot = [&] {
     if (!O.IsWrite)
@@ -218,11 +277,18 @@ void Run::open(double Load) {
   Sequence Lines = randomLines(0);
   Random Times;
   double At = 0;
+  if (Listed) // no more than fit wait
+    *Listed +=
+        fmt::format("{:.0f} {} {}\n", 100 * Load, S.Requests, S.Requests);
   for (uint64_t I = 0; I != S.Requests; ++I) {
     constexpr uint64_t Steps = uint64_t{1} << 32;
     At -= Gap * std::log(static_cast<double>(Times() % Steps + 1) /
                          static_cast<double>(Steps));
     const auto Tick = static_cast<uint64_t>(At);
+    if (Listed) {
+      list(Tick, Lines(I));
+      continue;
+    }
     IssuedAt.push_back(Tick);
     submit(Tick + S.Front, I, Lines(I));
     advance(Tick);
@@ -267,6 +333,7 @@ int run(int Argc, char **Argv) {
   std::string Only;
   uint32_t Queue = 64;
   double FrontNs = 0;
+  std::string List;
   Setup S;
   App.add_option("--standard", Standard, "a standard, or a table's file");
   App.add_option("--map", Map, "address map");
@@ -274,6 +341,11 @@ int run(int Argc, char **Argv) {
   App.add_option("--front-ns", FrontNs, "from issue to the controller");
   App.add_option("--requests", S.Requests, "of each pattern");
   App.add_option("--only", Only, "one pattern");
+  App.add_option("--list", List,
+                 "write each pattern's requests into this folder, as "
+                 "PATTERN: a line with its name, read and write slots; then a "
+                 "line a request: tick, 1 for a write, line, bank group, bank, "
+                 "row, column");
   App.add_option("--cap", S.Options.RowHitCap,
                  "accesses beyond the first that have precedence");
   App.add_flag_callback(
@@ -302,6 +374,26 @@ int run(int Argc, char **Argv) {
 
   nlohmann::ordered_json Closed = nlohmann::ordered_json::object();
   nlohmann::ordered_json Open = nlohmann::ordered_json::object();
+  if (!List.empty()) {
+    const auto Write = [&](const std::string &Name,
+                           const std::function<void(Run &)> &Body) {
+      Run R(S);
+      std::string Text;
+      R.listTo(Text);
+      Body(R);
+      return writeFileAtomically(List + "/" + Name, Text);
+    };
+    for (const Pattern &P : patterns())
+      if (const auto Good = Write(P.Name, [&P](Run &R) { R.closed(P); }); !Good)
+        return Fail(Good.error());
+    for (int Percent = 10; Percent <= 90; Percent += 10)
+      if (const auto Good =
+              Write(fmt::format("{}", Percent),
+                    [Percent](Run &R) { R.open(Percent / 100.0); });
+          !Good)
+        return Fail(Good.error());
+    return 0;
+  }
   const auto Measure = [&S](const std::function<void(Run &)> &Body) {
     Run R(S);
     const std::clock_t Begin = std::clock();

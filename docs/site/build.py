@@ -31,7 +31,7 @@ def stage(root, pages):
         folders[:] = [f for f in folders if f[0] not in "._" and f != "Inputs"]
         for name in files:
             path = os.path.relpath(os.path.join(folder, name), root)
-            if name.endswith(".md") or path == "LICENSE" or path.startswith("docs/images/"):
+            if name.endswith(".md") or path in ("LICENSE", "CITATION.cff") or path.startswith("docs/images/"):
                 copy = os.path.join(pages, path)
                 os.makedirs(os.path.dirname(copy), exist_ok=True)
                 shutil.copyfile(os.path.join(root, path), copy)

@@ -80,6 +80,16 @@ def on_page_markdown(markdown, page, config, files):
     return as_python_markdown(markdown)
 
 
+def boosted(index, config):
+    """The search's index, in which entries of the pages of extra.boost have a factor, which mkdocs-material has since 8.3."""
+    factors = {page.removesuffix(".md") + ".html": factor for page, factor in config["extra"].get("boost", {}).items()}
+    for entry in index["docs"]:
+        factor = factors.get(entry["location"].split("#")[0])
+        if factor:
+            entry["boost"] = factor
+    return index
+
+
 def on_post_build(config):
     """Writes index and worker of the search as scripts: a page opened from its file may load scripts, but neither
     other files nor a worker by its name. Removes what only a host on the web, a developer of the theme or a search in
@@ -90,10 +100,10 @@ def on_post_build(config):
     """
     search = os.path.join(config["site_dir"], "search")
     with open(os.path.join(search, "search_index.json"), encoding="utf-8") as f:
-        index = json.load(f)
+        index = boosted(json.load(f), config)
     [worker] = glob.glob(os.path.join(config["site_dir"], "assets", "javascripts", "workers", "search.*.js"))
     with open(worker, encoding="utf-8") as f:
-        source = f.read()
+        source = re.sub(r"\bthis\.add\((\w+)\)", r"this.add(\1,{boost:\1.boost||1})", f.read())
     with open(os.path.join(search, "offline.js"), "w", encoding="utf-8") as f:
         f.write(f"""var __index = {json.dumps(index)};
 var __search = {{index: Promise.resolve(__index),

@@ -118,7 +118,7 @@ def splat(records):
     yield "enum class ReasonGroup : uint8_t {"
     yield from (f"  {g.id}, ///< a {u.One} {g.Label}" for u in units(records) for g in u.Groups)
     yield "};"
-    yield "struct ReasonInfo {\n  ReasonGroup Group;\n  bool IsIdle; ///< the unit has nothing to do\n};"
+    yield "struct ReasonInfo {\n  ReasonGroup Group;\n  bool IsIdle; ///< the unit has nothing to do\n  std::string_view Helps; ///< a key of the configuration: more of it shortens the wait\n};"
     yield "/// Of the reasons of a unit, in the order of its counts."
     yield "template <typename Count> inline constexpr std::array<ReasonInfo, 0> Reasons{};\n"
     for unit in units(records):
@@ -130,7 +130,7 @@ def splat(records):
         yield f"    std::to_array<std::string_view>({{{names(counts)}}});"
         if unit.Reasons:
             yield f"template <> inline constexpr auto Reasons<{enum}> = std::to_array<ReasonInfo>({{"
-            yield from (f'    {{ReasonGroup::{r.Group.id}, {flag(r.Group.Idle)}}},' for r in unit.Reasons)
+            yield from (f'    {{ReasonGroup::{r.Group.id}, {flag(r.Group.Idle)}, "{r.Group.Helps}"}},' for r in unit.Reasons)
             yield "});"
         yield ""
     yield "/// @}\n\n} // namespace vorion::splat"

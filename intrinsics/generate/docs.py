@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/isa.md, the reference of instructions, CSRs and descriptors, or the tables of docs/time-report.md.
+"""Writes docs/isa.md, the reference of instructions, CSRs and descriptors, or the tables of docs/tables/clock-reasons.md.
 
 usage: docs.py [--tblgen PATH] [--check] OUTPUT
 Of a document with the lines `<!-- clock reasons -->` and `<!-- /clock reasons -->` only what is between them is written.
@@ -100,12 +100,13 @@ def units(records):
                     "tables of the clock](tables/timing.md) list the operations of each unit, "
                     "[lane-units.md](lane-units.md) describes it.")
     rows = []
-    for kind, field in (("Exp", "`vr_options.exp`"), ("Blend", "`vr_options.blend`"),
+    for kind, field in (("FrontEnd", "`vr_mode.primitive`"), ("Exp", "`vr_options.exp`"), ("Blend", "`vr_options.blend`"),
                         ("Reciprocal", "`vr_backward.reciprocal`")):
         for u in sorted(records.of(kind + "Unit"), key=lambda u: u.Value):
             bound = getattr(u, "MaxRelativeError", "").replace("0x1p", "2^")
             rows.append((field, u.Value, f"`{u.Choice}`", bound, u.Latency, u.Doc.split(": ", 1)[1]))
-        rows += ((field, r.Value, "", "", "", f"reserved: `{r.Choice}` in earlier versions.")
+        reserved = "reserved for `{}`." if kind == "FrontEnd" else "reserved: `{}` in earlier versions."
+        rows += ((field, r.Value, "", "", "", reserved.format(r.Choice))
                  for r in records.of(f"Reserved{kind}Number"))
     yield table(("field", "number", "option", "largest relative error", "cycles", "unit"), rows)
 

@@ -50,11 +50,12 @@ HOST_HEAD = """#ifndef VORION_ABI_H
 
 def constants(records, language):
     yield from (language.constant(c) for c in records.of("Constant"))
-    for c in records.of("Csr"):
-        for f in c.Fields:
-            name = f"{c.Name}_{f.Name}".upper()
-            yield f"#define {name}_SHIFT {f.Low} /* {f.Doc} */"
-            yield f"#define {name}_MASK {((1 << f.Width) - 1) << f.Low:#x}u"
+    fields = [(c.Name, f) for c in records.of("Csr") for f in c.Fields]
+    fields += [(f"vr_{w.Word}", f) for w in records.of("IndexedWord") for f in w.Fields]
+    for owner, f in fields:
+        name = f"{owner}_{f.Name}".upper()
+        yield f"#define {name}_SHIFT {f.Low} /* {f.Doc} */"
+        yield f"#define {name}_MASK {((1 << f.Width) - 1) << f.Low:#x}u"
 
 
 def descriptors(records, language):
@@ -79,7 +80,7 @@ def device(records):
         macro = macro_of(i)
         yield f"/* {i.doc} */\n{i.prototype} {macro}({i.name});"
     yield "\n#ifdef __cplusplus\n}\n#endif\n"
-    language = C(u32="uint", f32="float")
+    language = C(u32="uint", i32="int", f32="float")
     yield from constants(records, language)
     yield from descriptors(records, language)
     yield "\n#endif"
@@ -87,7 +88,7 @@ def device(records):
 
 def host(records):
     yield HOST_HEAD
-    language = C(u32="uint32_t", f32="float")
+    language = C(u32="uint32_t", i32="int32_t", f32="float")
     yield from constants(records, language)
     for c in records.of("Csr"):
         yield f"#define {csr_macro(c)} {c.Number:#x}u /* {c.Doc} */"

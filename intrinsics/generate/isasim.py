@@ -71,9 +71,9 @@ def instructions(records):
 
 
 def abi(records):
-    yield from Cpp().constants(c for c in records.of("Constant") if not is_raster(c))
+    yield from Cpp().constants(c for c in records.of("Constant") if not is_raster(records, c))
     for d in records.of("Descriptor"):
-        if not is_raster(d):
+        if not is_raster(records, d):
             yield from Cpp().structure(camel(d.Name), d.Doc, d.Fields)
 
 

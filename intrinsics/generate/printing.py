@@ -26,7 +26,7 @@ def csr_macro(csr):
 
 
 class C:
-    """types: how this reader spells "u32", "f32" and "u64"."""
+    """types: how this reader spells "u32", "i32", "f32" and "u64"."""
 
     def __init__(self, **types):
         self._types = types
@@ -45,7 +45,7 @@ class C:
 class Cpp:
     """Members are named as LLVM does. A type that records do not know is a structure's name."""
 
-    _TYPES = {"u32": "uint32_t", "f32": "float", "u64": "uint64_t"}
+    _TYPES = {"u32": "uint32_t", "f32": "float", "u64": "uint64_t", "i32": "int32_t"}
 
     def constants(self, records):
         yield "// The names of the ABI, as in every other language."

@@ -32,13 +32,15 @@ struct BitField {
 """
 
 
-# Descriptors that the rasterizer reads or writes.
-DESCRIPTORS = ("vx_gaussian", "vx_tail")
+def descriptor_names(records):
+    """Of what the rasterizer reads or writes; a hand-over is the last."""
+    front_ends = sorted(records.of("FrontEndUnit"), key=lambda u: u.Value)
+    return [*dict.fromkeys(u.Record for u in front_ends), "vx_visibility", "vx_tail_range", "vx_tail"]
 
 
-def is_raster(record):
+def is_raster(records, record):
     """Whether a constant or descriptor is the rasterizer's."""
-    return record.Name.startswith("VR_") or record.Name in DESCRIPTORS
+    return record.Name.startswith("VR_") or record.Name in descriptor_names(records)
 
 
 def csr_name(csr):
@@ -52,6 +54,10 @@ def enum_csrs(csrs):
     yield "};\n"
 
 
+def structure_name(descriptor):
+    return camel(descriptor.Name.removeprefix("vx_"))
+
+
 def field_name(csr):
     return csr.Name.removeprefix("vr_")
 
@@ -61,11 +67,18 @@ def bank(records):
     handed = {f.Name for f in handed_over(records)}
     own = [SimpleNamespace(Type="u32", Name=field_name(c), Count=1, Doc=c.Doc) for c in words
            if field_name(c) not in handed]
+    indexed = records.of("IndexedWord")
+    own += [SimpleNamespace(Type="u32", Name=w.Word, Count=1, Doc=w.Doc) for w in indexed]
     yield from Cpp().structure("BankWords", "The configuration bank, as written.", own, base="TileWords", initial="0")
     yield "/// The word of the bank that \\p C is, or null."
     yield "constexpr uint32_t BankWords::*bankWord(Csr C) {"
     yield "  switch (C) {"
     yield from (f"  case Csr::{csr_name(c)}:\n    return &BankWords::{csr_name(c)};" for c in words)
+    yield "  default:\n    return nullptr;\n  }\n}\n"
+    yield "/// The word of the bank with number \\p Index, or null."
+    yield "constexpr uint32_t BankWords::*indexedWord(uint32_t Index) {"
+    yield "  switch (Index) {"
+    yield from (f"  case {w.Name}:\n    return &BankWords::{camel(w.Word)};" for w in indexed)
     yield "  default:\n    return nullptr;\n  }\n}\n"
 
 
@@ -79,10 +92,10 @@ def counters(records):
     yield "};\n"
 
 
-def fields(csrs):
-    for c in csrs:
-        for f in c.Fields:
-            yield f"inline constexpr BitField {csr_name(c)}{camel(f.Name)}{{{f.Low}, {f.Width}}}; ///< {f.Doc}"
+def fields(csrs, words):
+    for owner, of in [(csr_name(c), c.Fields) for c in csrs] + [(camel(w.Word), w.Fields) for w in words]:
+        for f in of:
+            yield f"inline constexpr BitField {owner}{camel(f.Name)}{{{f.Low}, {f.Width}}}; ///< {f.Doc}"
     yield ""
 
 
@@ -94,14 +107,15 @@ def handed_over(records):
 
 
 def descriptors(records):
-    gaussian, tail = (next(d for d in records.of("Descriptor") if d.Name == name) for name in DESCRIPTORS)
+    *plain, tail = (next(d for d in records.of("Descriptor") if d.Name == name) for name in descriptor_names(records))
     handed = handed_over(records)
     words = SimpleNamespace(Type="TileWords", Name="rest", Count=1, Doc="of the command")
-    yield from Cpp().structure("Gaussian", gaussian.Doc, gaussian.Fields)
+    for d in plain:
+        yield from Cpp().structure(structure_name(d), d.Doc, d.Fields)
     yield from Cpp().structure("TileWords", "The words of a command that are handed over.", handed, initial="0")
     yield from Cpp().structure("Tail", tail.Doc, [words, *tail.Fields[len(handed):]])
-    for name, d in (("Gaussian", gaussian), ("Tail", tail)):
-        yield f"static_assert(sizeof({name}) == {4 * sum(f.Count for f in d.Fields)});\n"
+    for d in (*plain, tail):
+        yield f"static_assert(sizeof({structure_name(d)}) == {4 * sum(f.Count for f in d.Fields)});\n"
 
 
 def main():
@@ -111,8 +125,8 @@ def main():
     args = parser.parse_args()
     records = Records(args.tblgen)
     csrs = sorted((c for c in records.of("Csr") if c.Extension == "xvorion"), key=lambda c: c.Number)
-    constants = Cpp().constants(c for c in records.of("Constant") if is_raster(c))
-    parts = (enum_csrs(csrs), fields(csrs), counters(records), constants, descriptors(records), bank(records))
+    constants = Cpp().constants(c for c in records.of("Constant") if is_raster(records, c))
+    parts = (enum_csrs(csrs), fields(csrs, records.of("IndexedWord")), counters(records), constants, descriptors(records), bank(records))
     lines = [HEAD, *(line for part in parts for line in part), "} // namespace vorion::raster"]
     write(args.output, "\n".join(lines) + "\n")
 

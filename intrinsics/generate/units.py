@@ -10,7 +10,7 @@ splat   enumerations with the units' numbers and names, and what the cores' path
 from printing import camel, note
 from records import write_for_one_of
 
-KINDS = ("Exp", "Blend", "Reciprocal")
+KINDS = ("FrontEnd", "Exp", "Blend", "Reciprocal")
 # In the order of DatapathUnit.
 PARTS = ("Latency", "Interval", "Multipliers", "Adders", "ProductBits", "AdderBits", "TableBits", "Source",
          "ChoiceBits", "RegisterBits")
@@ -56,13 +56,23 @@ def raster(records):
         yield "};\n"
     yield "enum class Reciprocal : uint8_t {"
     yield from (f"  {enumerator(u)} = {u.Value}, ///< {u.Doc}" for u in by_number(records, "Reciprocal"))
+    yield "};\n"
+    front_ends = by_number(records, "FrontEnd")
+    yield "struct FrontEnd {\n  uint32_t Primitive; ///< its number\n  std::string_view Name;"
+    yield "  uint8_t RecordBytes;\n  uint8_t PixelWords;  ///< of the pixel buffer, in a render"
+    yield "  uint8_t OutputBytes; ///< of a pixel at vr_output\n};"
+    yield "/// By number; any other is VR_BAD_MODE."
+    yield f"inline constexpr FrontEnd FrontEnds[{len(front_ends)}] = {{"
+    for u in front_ends:
+        record = camel(u.Record.removeprefix("vx_"))
+        yield f'    {{{u.Name}, "{u.Choice}", sizeof({record}), {u.PixelWords}, {4 * u.OutputWords}}},'
     yield "};\n\n} // namespace vorion::raster"
 
 
 def clock(records):
     yield from cpp("vorion::isasim", '"raster/UnitTables.h"', '"timing/common/DatapathUnits.h"')
     for kind in KINDS:
-        yield f"inline constexpr DatapathUnit {kind}Parts[raster::{kind}UnitCount] = {{"
+        yield f"inline constexpr DatapathUnit {kind}Parts[] = {{"
         for u in by_number(records, kind):
             parts = ((part, getattr(u, part)) for part in PARTS)
             yield f'    {{.Name = "{u.Report}",'

@@ -7,6 +7,7 @@
 /// VORION_FLOAT_SEED where they begin.
 
 #include "testing/MpfrOracle.h"
+#include "testing/Setting.h"
 #include "testing/WarpRunner.h"
 #include "translate/Translator.h"
 
@@ -23,11 +24,6 @@ namespace {
 constexpr uint32_t SignBit = 0x80000000;
 constexpr unsigned NumModes = 5; // with rmm
 constexpr unsigned Dyn = 7;
-
-unsigned setting(const char *Name, unsigned Default) {
-  const char *Text = std::getenv(Name);
-  return Text ? static_cast<unsigned>(std::strtoul(Text, nullptr, 0)) : Default;
-}
 
 /// Fractions at which roundings change: a few bits at either end.
 uint32_t fraction(std::mt19937 &Random) {
@@ -299,8 +295,8 @@ TEST(FloatMpfr, BoundaryValues) {
 }
 
 TEST(FloatMpfr, RandomOperands) {
-  const unsigned Operands = setting("VORION_FLOAT_OPERANDS", 20000);
-  std::mt19937 Random(setting("VORION_FLOAT_SEED", 1));
+  const unsigned Operands = vorion::setting("VORION_FLOAT_OPERANDS", 20000);
+  std::mt19937 Random(vorion::setting("VORION_FLOAT_SEED", 1));
   const uint64_t Count = forEachMode([&](Checker &C, unsigned) {
     for (unsigned N = 0; N != Operands; ++N)
       C.add(related(Random));

@@ -170,6 +170,11 @@ struct alignas(64) WarpState {
   /// the program's affair.
   static constexpr uint32_t NoOwnStack = ~0U;
   uint32_t FirstStack = NoOwnStack;
+  /// While translated code runs and knows the line of the stack pointer
+  /// (translate/Stack.cpp): bytes from the top of lane 0's stack to its stack
+  /// pointer, and bytes of a stack.
+  uint32_t StackPointerDepth = 0;
+  uint32_t StackBytes = 0;
   /// Whether sp may point to a lane's own stack alone, as in launches.
   bool KeepsStacks = false;
   bool AtBarrier = false;

@@ -24,6 +24,7 @@ std::string_view name(EnergyUnit U) {
                                         "link",
                                         "l2",
                                         "llc",
+                                        "command processor and DMA",
                                         "dram"};
   static_assert(std::size(Names) == size_t(EnergyUnit::Count));
   return Names[size_t(U)];
@@ -79,10 +80,17 @@ constexpr EventCost Others[] = {
      "pixel of the buffer", 1},
     {"rasterizer", "pixels loaded or stored", Wires, "wire byte mm",
      16 * ToEdgeMm},
+    // A quarter of a bank's row.
+    {"rasterizer", "words of ranges loaded", RasterBuffers,
+     "pixel of the buffer", 0.25},
+    {"rasterizer", "words of ranges loaded", Wires, "wire byte mm",
+     4 * ToEdgeMm},
     {"rasterizer", "rows of blocks tested", RasterLanes, "fp32 multiplication",
      8},
     {"rasterizer", "rows of blocks tested", RasterLanes, "fp32 addition", 8},
     {"rasterizer", "rows of blocks tested", RasterLanes, "adder bit", 26 * 24},
+    {"rasterizer front end", "pixels in front", RasterBuffers,
+     "pixel of the buffer", 1},
     {"rasterizer gradients", "pixels", RasterLanes, "fp32 multiplication", 16},
     {"rasterizer gradients", "pixels", RasterLanes, "fp32 addition", 4 + 9},
     {"rasterizer gradients", "pixels", RasterBuffers, "pixel of the buffer", 2},
@@ -99,6 +107,12 @@ constexpr EventCost Others[] = {
     {"l2", "line reads", L2, "SRAM 1 MiB", LineWords},
     {"l2", "line writes", L2, "SRAM 1 MiB", LineWords},
     {"l2", "write-backs", L2, "SRAM 1 MiB", LineWords},
+    // Of 64 bytes, written to the queue and read.
+    {"command processor", "commands", Host, "SRAM 8 KiB", 2 * LineWords},
+    {"command processor", "commands", Host, "tile command", 1},
+    // Written to an engine's buffer and read.
+    {"dma", "lines", Host, "SRAM 8 KiB", 2 * LineWords},
+    {"host link", "bytes", Host, "pad byte", 1},
     {"llc", "line reads", Llc, "SRAM 1 MiB", LineWords},
     {"llc", "line writes", Llc, "SRAM 1 MiB", LineWords},
 };
@@ -159,6 +173,13 @@ std::span<const EventCost> eventCosts() {
       add(Made, "rasterizer blend", U.Name, U);
     }
     add(Made, "rasterizer gradients", "pixels", backwardUnits(0)[0]);
+    for (uint8_t N = 1; N != std::size(raster::FrontEnds); ++N) {
+      const std::string_view Name = raster::FrontEnds[N].Name;
+      add(Made, "rasterizer front end", Name,
+          datapathUnits({.FrontEnd = N})[0]);
+      Made.push_back({"rasterizer front end", Name, RasterBuffers,
+                      "pixel of the buffer", 1});
+    }
     std::erase_if(Made, [](const EventCost &C) { return C.Count == 0; });
     return Made;
   }();
@@ -173,6 +194,9 @@ std::span<const FreeEvent> freeEvents() {
       {"time", "busy rasterizers"},
       {"time", "busy pixel units"},
       {"time", "links"},
+      {"time", "command processors"},
+      {"time", "DMA engines"},
+      {"time", "lines of DMA engines"},
       {"time", "rasterizers"},
       {"time", "rasterizer lanes"},
       {"time", "places for Gaussians"},
@@ -221,8 +245,17 @@ std::span<const AreaCost> areaCosts() {
         {"rasterizer lanes", RasterLane, "register bit", 1200},
         // A tile of 64 x 64 pixels of 128 bits.
         {"pixel buffers", "rasterizers", "buffer bit", 64 * 64 * 128},
-        // A record of 48 bytes.
-        {"rasterizer control", "places for Gaussians", "buffer bit", 48 * 8},
+        // A triangle as dispatch takes it, with its box: steps of 32 bits and
+        // edges of 40, a plane, an ID (test/rtl/cut.sv). A Gaussian needs less.
+        {"rasterizer control", "places for Gaussians", "buffer bit",
+         3 * (2 * 32 + 40) + 4 * 32 + 4 * 7},
+        // Triangles are restated at the tile's first pixel, in two cycles.
+        {"rasterizer control", "rasterizers", "product bit", 3 * 32 * 16},
+        {"rasterizer control", "rasterizers", "adder bit", 3 * 64},
+        {"rasterizer control", "rasterizers", "fp32 multiplier", 1},
+        {"rasterizer control", "rasterizers", "fp32 adder", 1},
+        // Which memory of a bank has a pixel.
+        {"rasterizer control", "rasterizers", "choice bit", 16 * 128},
         // Pixels from 16 lanes to 16 banks and back.
         {"rasterizer control", "rasterizers", "choice bit", 2 * 16 * 15 * 128},
         {"rasterizer control", "rasterizers", "gate", 30'000},
@@ -240,6 +273,10 @@ std::span<const AreaCost> areaCosts() {
         {"pixel unit", "pixel unit lanes", "fp32 adder", 11},
         {"pixel unit", "pixel unit lanes", "register bit", 1200},
         {"pixel unit", "pixel unit lanes", "buffer bit", 64 * 48 * 8 / 4.0},
+        // A core of 32 bits, as above, and a queue; a controller of half that.
+        {"host units", "command processors", "gate", 20'000, Host},
+        {"host units", "DMA engines", "gate", 10'000, Host},
+        {"host units", "lines of DMA engines", "buffer bit", 64 * 8, Host},
         {"l2", "KiB of the L2", "SRAM bit", KibBits, L2},
         {"llc", "KiB of the llc", "SRAM bit", KibBits, Llc},
     };
@@ -258,6 +295,16 @@ std::span<const AreaCost> areaCosts() {
     };
     for (const DatapathUnit &U : datapathUnits(paperLane()))
       Add("rasterizer lanes", U, 1);
+    // A triangle's depth takes multipliers and adders of the power, by a choice
+    // of six operands. Its edges and its test are its own
+    // (docs/unification.md).
+    constexpr unsigned DepthMultipliers = 2, DepthAdders = 2;
+    DatapathUnit Edges = datapathUnits(
+        {.FrontEnd = raster::frontEndRowOf(raster::VR_PRIMITIVE_TRIANGLE)})[0];
+    Edges.Multipliers -= DepthMultipliers;
+    Edges.Adders -= DepthAdders;
+    Edges.ChoiceBits += 6 * 32;
+    Add("rasterizer lanes", Edges, 1);
     // What a pair of lanes has for gradients, with an exact divider.
     for (const DatapathUnit &U : backwardUnits(0))
       Add("backward mode", U, 0.5);

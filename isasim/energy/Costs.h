@@ -26,15 +26,18 @@ enum class EnergyUnit : uint8_t {
   Link,
   L2,
   Llc,
+  Host,
   Dram,
   Count
 };
 std::string_view name(EnergyUnit U);
-/// Of the chip. The paper's has no L2 and no cache behind it: those are at the
-/// other end of its link. Without a link they are on the chip.
+/// Of the chip. The paper's has no L2, no cache behind it and no units of the
+/// host: those are at the other end of its link. Without a link they are on the
+/// chip.
 constexpr bool isOnChip(EnergyUnit U, bool HasLink) {
   return U < EnergyUnit::Link ||
-         (!HasLink && (U == EnergyUnit::L2 || U == EnergyUnit::Llc));
+         (!HasLink && (U == EnergyUnit::L2 || U == EnergyUnit::Llc ||
+                       U == EnergyUnit::Host));
 }
 
 /// An event is worth \c Count times a row. An event that is worth several rows

@@ -193,7 +193,7 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
       if (C.Unit == E.Unit && C.Event == E.Event) {
         const size_t Row = rowOf(From.Energies, C.Row);
         // Pads have a supply of their own.
-        const double ByVolts = C.Of == EnergyUnit::Link ? 1 : Square;
+        const double ByVolts = C.Row == "pad byte" ? 1 : Square;
         Units[size_t(C.Of)].add(static_cast<double>(E.Count) * C.Count *
                                     From.Energies[Row].Value * ByVolts *
                                     Picojoule,

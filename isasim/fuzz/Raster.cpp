@@ -79,10 +79,32 @@ uint32_t likelyValue(unsigned Number, uint8_t Choice) {
   const uint32_t Small = Choice % 16, Where = Choice / 16;
   switch (static_cast<Csr>(Number)) {
   case Csr::Mode: {
-    constexpr uint32_t Modes[] = {0, 0, 16, 1, 2, 4, 8, 6};
+    constexpr uint32_t Triangles =
+        raster::ModePrimitive.put(raster::VR_PRIMITIVE_TRIANGLE);
+    constexpr uint32_t Modes[] = {
+        0,
+        0,
+        16,
+        1,
+        2,
+        4,
+        8,
+        6,
+        Triangles,
+        Triangles,
+        Triangles | raster::ModeFragments.put(1),
+        raster::ModeLimited.put(1),
+        raster::ModeFrom.put(1) | raster::ModeLoad.put(1),
+        raster::ModeLimited.put(1) | raster::ModeKeepSaturated.put(1)};
     return Modes[Choice % std::size(Modes)];
   }
+  case Csr::Index:
+    return Choice % 5;
+  case Csr::Word: // of depths, or an address
+    return Choice % 2 ? Choice % 32 : VX_GLOBAL_BASE + Pixels + 4 * Choice;
   case Csr::Options:
+    if (Choice % 4 == 0)
+      return 0;
     return raster::OptionsExp.put(
                raster::ExpUnits[Choice % raster::ExpUnitCount].Option) |
            raster::OptionsBlend.put(Choice / raster::ExpUnitCount %

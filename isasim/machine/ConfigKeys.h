@@ -14,10 +14,9 @@
 
 namespace vorion::isasim {
 
-// As many as the I/O window has room for (docs/abi.md, "Memory map"); the
-// product of the three is checked in validate().
-inline constexpr uint64_t MaxCores =
-    (VX_GLOBAL_BASE - VX_IO_RASTER) / VX_IO_RASTER_STRIDE;
+/// 1,024 rasterizers of four cores, whose I/O window is 1 MiB (docs/abi.md,
+/// "Memory map"); the product of the three is checked in validate().
+inline constexpr uint64_t MaxCores = 4096;
 /// In front of the image, and behind it. Stacks take some of the latter;
 /// validate() knows how much.
 inline constexpr uint64_t MaxHigh = VX_STACK_TOP - VX_HIGH_BASE;

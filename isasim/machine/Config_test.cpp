@@ -99,7 +99,7 @@ TEST(Config, ShortNamesAndEndsOfKeys) {
   EXPECT_EQ(setValues(C, "cores=6,rasterizers=4").error().What,
             "cores is 6, expected a multiple of 4, the sockets");
   EXPECT_EQ(setValues(C, "cores=many").error().What,
-            "cores is 'many', expected a whole number, 1 to 240");
+            "cores is 'many', expected a whole number, 1 to 4096");
   EXPECT_EQ(setValues(C, "ways=4").error().What,
             "'ways' is ambiguous, expected one of "
             "timing.l2.ways, timing.llc.ways");
@@ -136,6 +136,12 @@ TEST(Config, WhatChangesNothingIsSaidWithTheKeyThatIsWhy) {
   EXPECT_EQ(Idle("dram=lpddr5-6400,fixed_cycles=5"),
             Notes({"timing.dram.standard=lpddr5-6400 has no effect on cycles: "
                    "timing.l2.fixed_cycles is 5"}));
+  EXPECT_EQ(Idle("l2.queue=4"),
+            Notes({"timing.l2.queue=4 has no effect on cycles: "
+                   "timing.l2.crossbar is 0"}));
+  EXPECT_EQ(Idle("llc.kib=64,constant_cycles=50"),
+            Notes({"timing.llc.kib=64 has no effect on cycles: "
+                   "timing.llc.constant_cycles is 50"}));
   EXPECT_EQ(Idle("lanes_per_warp=8,alu_lanes=8"),
             Notes({"timing.core.alu_lanes=8 has no effect on cycles: "
                    "lanes_per_warp is 8"}));
@@ -210,7 +216,10 @@ TEST(Config, ErrorsNameTheKey) {
 
 TEST(Config, TheMemoryMapMustHaveRoom) {
   EXPECT_EQ(wrongIn(R"({"clusters": 100, "sockets_per_cluster": 100})"),
-            "file.json: 40000 cores, expected at most 240");
+            "file.json: 40000 cores, expected at most 4096");
+  EXPECT_TRUE(parseConfig(R"({"clusters": 1024, "sockets_per_cluster": 1,
+                              "cores_per_socket": 4, "stack_bytes": 16384})",
+                          ""));
   EXPECT_EQ(wrongIn(R"({"stack_bytes": 16777216})"),
             "file.json: the stacks take 2147483648 bytes, expected at most "
             "2130640896");
@@ -232,6 +241,23 @@ TEST(Config, GlobalMemoryIsInFrontOfTheImageAndBehindIt) {
   EXPECT_EQ(Low.Base + Low.Bytes, VX_IMAGE_BASE);
   EXPECT_EQ(High.Base, VX_IMAGE_BASE + VX_IMAGE_SIZE);
   EXPECT_EQ(Low.Bytes + High.Bytes, 3ULL << 30);
+}
+
+TEST(Config, GlobalMemoryBeginsBehindTheIoWindow) {
+  Config C;
+  const auto BaseOf = [&](unsigned Clusters, unsigned CoresPerSocket) {
+    C.Clusters = Clusters;
+    C.SocketsPerCluster = 1;
+    C.CoresPerSocket = CoresPerSocket;
+    return globalBase(C);
+  };
+  EXPECT_EQ(BaseOf(1, 1), VX_GLOBAL_BASE);
+  EXPECT_EQ(BaseOf(1, 240), VX_GLOBAL_BASE);
+  EXPECT_EQ(BaseOf(1, 241), VX_GLOBAL_BASE + 0x1000);
+  EXPECT_EQ(BaseOf(1, 256), VX_GLOBAL_BASE + 0x1000);
+  EXPECT_EQ(BaseOf(1024, 4), 0x101000U);
+  EXPECT_EQ(globalRanges(C)[0].Base, globalBase(C));
+  EXPECT_EQ(globalRanges(C)[0].Base + globalRanges(C)[0].Bytes, VX_IMAGE_BASE);
 }
 
 TEST(Config, GlobalMemoryFillsTheMapByDefault) {

@@ -24,9 +24,12 @@ constexpr Switch Switches[] = {
     {"timing.core.fpu_lanes", "timing.core.fpu", true},
     {"timing.core.fp_", "timing.core.fpu", true},
     {"timing.core.fp_hold", "timing.core.fp_in_flight", true},
+    {"timing.l2.queue", "timing.l2.crossbar", true},
     {"timing.l2.", "timing.l2.fixed_cycles", false},
     {"timing.llc.", "timing.l2.fixed_cycles", false},
     {"timing.dram.", "timing.l2.fixed_cycles", false},
+    {"timing.llc.", "timing.llc.constant_cycles", false},
+    {"timing.dram.", "timing.llc.constant_cycles", false},
 };
 
 using Numbers = std::vector<uint64_t>;

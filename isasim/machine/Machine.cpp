@@ -174,6 +174,24 @@ void Machine::setClocking(Clocking Of) {
   PImpl->chooseLog();
 }
 
+uint64_t Machine::copies(const HostCopy &Copy, CommandOrder Order) {
+  return PImpl->isClocked() ? PImpl->Time->copies(Copy, std::move(Order)) : 0;
+}
+
+void Machine::orderLaunch(CommandOrder Order) {
+  if (PImpl->isClocked())
+    PImpl->Time->orderLaunch(std::move(Order));
+}
+
+uint64_t Machine::lastCommand() const {
+  return PImpl->Time ? PImpl->Time->lastCommand() : 0;
+}
+
+void Machine::settle() {
+  if (PImpl->isClocked())
+    PImpl->Time->settle();
+}
+
 std::optional<uint32_t> Machine::readRasterCsr(unsigned Core, unsigned Csr) {
   return PImpl->Raster.hostRead(Core, Csr);
 }

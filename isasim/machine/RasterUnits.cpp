@@ -19,6 +19,7 @@ template <typename Stream, typename State> void exchange(Stream &S, State &A) {
   S.list(A.PixelIndex);
   S.list(A.Drained);
   S.value(A.Shown);
+  S.value(A.Index);
   S.value(A.FirstFailure);
   S.value(A.Totals);
 }

@@ -18,13 +18,20 @@ constexpr uint64_t roomIn(uint32_t StackBytes) {
 
 } // namespace
 
+uint32_t globalBase(const Config &C) {
+  constexpr uint32_t Page = 4096;
+  const uint32_t End = VX_IO_RASTER + C.cores() * VX_IO_RASTER_STRIDE;
+  return std::max<uint32_t>(VX_GLOBAL_BASE, (End + Page - 1) / Page * Page);
+}
+
 std::array<AddressRange, 2> globalRanges(const Config &C) {
-  constexpr uint64_t MaxLow = VX_IMAGE_BASE - VX_GLOBAL_BASE;
+  const uint32_t Base = globalBase(C);
+  const uint64_t MaxLow = VX_IMAGE_BASE - Base;
   const uint64_t Bytes =
       C.GlobalBytes ? C.GlobalBytes
                     : MaxLow + MaxHigh - std::min(MaxHigh, stackBytes(C));
   const uint64_t Low = std::min(Bytes, MaxLow);
-  return {{{VX_GLOBAL_BASE, Low}, {VX_HIGH_BASE, Bytes - Low}}};
+  return {{{Base, Low}, {VX_HIGH_BASE, Bytes - Low}}};
 }
 
 uint64_t globalBytes(const Config &C) {

@@ -1,6 +1,7 @@
 #include "observe/CycleTimeline.h"
 
 #include "observe/ChipPower.h"
+#include "timing/memory/L2Link.h"
 #include "vorion/support/ClockText.h"
 
 #include <algorithm>
@@ -16,10 +17,12 @@ enum Process : unsigned {
   OfCores,
   OfRasterizers,
   OfPixelUnits,
+  OfLink,
   OfL2,
   OfLlc,
   OfDram,
-  OfPower
+  OfPower,
+  OfHost
 };
 
 } // namespace
@@ -34,6 +37,16 @@ CycleTimeline::CycleTimeline(std::FILE *File, const Config &C,
   addUnits<CoreCycle>(Cores, OfCores, "core", C.cores());
   addUnits<RasterCycle>(Rasters, OfRasterizers, "rasterizer", C.sockets());
   addUnits<PixelCycle>(Pixels, OfPixelUnits, "pixel unit", C.Clusters);
+  if (L2Link::exists(C.Timing))
+    for (const char *Way : {"to the L2", "from the L2"})
+      addShare(Link, OfLink, Way);
+  if (C.Timing.Host.DmaEngines) {
+    addUnits<CommandCycle>(Commands, OfHost, "command processor", 1);
+    addUnits<DmaCycle>(Dmas, OfHost, "DMA engine", C.Timing.Host.DmaEngines);
+    for (unsigned N = 0; N != Dmas.size(); ++N)
+      Dmas[N].Thread = N + 1;
+    Out.nameProcess(OfHost, "command processor and DMA");
+  }
   for (unsigned N = 0; N != C.Clusters; ++N)
     addBanks(L2, OfL2, fmt::format("slice {} bank", N), L2Banks);
   addBanks(Llc, OfLlc, "bank", C.Timing.Llc.Banks);
@@ -43,13 +56,15 @@ CycleTimeline::CycleTimeline(std::FILE *File, const Config &C,
                                  {OfCores, "cores"},
                                  {OfRasterizers, "rasterizers"},
                                  {OfPixelUnits, "pixel units"},
+                                 {OfLink, "link"},
                                  {OfL2, "L2"},
                                  {OfLlc, "last-level cache"},
                                  {OfDram, "DRAM"},
                                  {OfPower, "power"}})
     Out.nameProcess(Id, Name);
   Out.nameThread(OfRuns, 0, "runs");
-  for (const std::vector<Row> *Rows : {&Cores, &Rasters, &Pixels})
+  for (const std::vector<Row> *Rows :
+       {&Cores, &Rasters, &Pixels, &Commands, &Dmas})
     for (const Row &R : *Rows)
       Out.nameThread(R.Process, R.Thread, R.Name);
 }
@@ -69,14 +84,19 @@ void CycleTimeline::addUnits(std::vector<Row> &To, unsigned Process,
 void CycleTimeline::addBanks(std::vector<Row> &To, unsigned Process,
                              const std::string &Of, unsigned Count) {
   for (unsigned N = 0; N != Count; ++N)
-    To.push_back({Process, 0, fmt::format("{} {}, % busy", Of, N), 1, {}, {}});
+    addShare(To, Process, fmt::format("{} {}", Of, N));
+}
+
+void CycleTimeline::addShare(std::vector<Row> &To, unsigned Process,
+                             const std::string &Of) {
+  To.push_back({Process, 0, Of + ", % busy", 1, {}, {}});
 }
 
 void CycleTimeline::timeBegins(uint64_t Now) {
   Origin = Now;
   WindowCycles = ShortestWindow;
-  for (std::vector<Row> *Rows :
-       {&Cores, &Rasters, &Pixels, &L2, &Llc, &Channels})
+  for (std::vector<Row> *Rows : {&Cores, &Rasters, &Pixels, &Commands, &Dmas,
+                                 &Link, &L2, &Llc, &Channels})
     for (Row &R : *Rows)
       R.Cycles.clear();
 }
@@ -93,6 +113,18 @@ void CycleTimeline::rasterSpent(unsigned Socket, RasterCycle What,
 void CycleTimeline::pixelSpent(unsigned Cluster, PixelCycle What,
                                CycleSpan When) {
   add(Pixels[Cluster], size_t(What), When);
+}
+
+void CycleTimeline::linkBusy(bool IsToL2, CycleSpan When) {
+  add(Link[IsToL2 ? 0 : 1], 0, When);
+}
+
+void CycleTimeline::commandSpent(CommandCycle What, CycleSpan When) {
+  add(Commands[0], size_t(What), When);
+}
+
+void CycleTimeline::dmaSpent(unsigned Engine, DmaCycle What, CycleSpan When) {
+  add(Dmas[Engine], size_t(What), When);
 }
 
 void CycleTimeline::bankBusy(BankPlace Where, CycleSpan When) {
@@ -127,8 +159,8 @@ void CycleTimeline::add(Row &R, size_t Reason, CycleSpan When) {
 /// Makes one window of two.
 void CycleTimeline::widen() {
   WindowCycles *= 2;
-  for (std::vector<Row> *Rows :
-       {&Cores, &Rasters, &Pixels, &L2, &Llc, &Channels})
+  for (std::vector<Row> *Rows : {&Cores, &Rasters, &Pixels, &Commands, &Dmas,
+                                 &Link, &L2, &Llc, &Channels})
     for (Row &R : *Rows) {
       std::vector<uint32_t> Wide((R.Cycles.size() / R.Reasons + 1) / 2 *
                                  R.Reasons);
@@ -166,7 +198,7 @@ void CycleTimeline::writeUnit(const Row &R) {
   }
 }
 
-/// Of a bank or channel.
+/// Of what has a figure.
 void CycleTimeline::writeShare(Row &R) {
   const size_t Windows = (End - Origin + WindowCycles - 1) / WindowCycles;
   R.Cycles.resize(Windows);
@@ -224,10 +256,11 @@ void CycleTimeline::runEnded(const std::string &Name, const TimeReport *Time) {
     return;
   Out.slice(OfRuns, 0, Name.empty() ? "run" : Name, Origin, End);
   if (!isFull()) {
-    for (const std::vector<Row> *Rows : {&Cores, &Rasters, &Pixels})
+    for (const std::vector<Row> *Rows :
+         {&Cores, &Rasters, &Pixels, &Commands, &Dmas})
       for (const Row &R : *Rows)
         writeUnit(R);
-    for (std::vector<Row> *Rows : {&L2, &Llc, &Channels})
+    for (std::vector<Row> *Rows : {&Link, &L2, &Llc, &Channels})
       for (Row &R : *Rows)
         writeShare(R);
     if (Time)

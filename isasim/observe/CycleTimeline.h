@@ -1,5 +1,5 @@
 /// What every unit of the machine did in which cycles of the clock
-/// (docs/debugging.md, "Timeline").
+/// (docs/profiling.md, "Timeline").
 #pragma once
 
 #include "observe/TraceEvents.h"
@@ -17,10 +17,11 @@ namespace vorion::isasim {
 class EnergyModel;
 
 /// A run is divided into windows of equal length, as many cycles as it takes
-/// to have at most MaxWindows of them. A core, rasterizer or pixel unit has a
-/// slice for neighbouring windows in which the same reason took most cycles,
-/// with the cycles of all reasons. A bank or channel has a figure that changes
-/// from window to window.
+/// to have at most MaxWindows of them. A core, a rasterizer, a pixel unit, the
+/// command processor or a DMA engine has a slice for neighbouring windows in
+/// which the same reason took most cycles, with the cycles of all reasons. A
+/// bank, a channel or a direction of the link has a figure that changes from
+/// window to window.
 class CycleTimeline final : public TimeObserver {
 public:
   static constexpr size_t MaxWindows = 1024;
@@ -38,6 +39,9 @@ public:
   void coreSpent(const CoreSpent &S) override;
   void rasterSpent(unsigned Socket, RasterCycle What, CycleSpan When) override;
   void pixelSpent(unsigned Cluster, PixelCycle What, CycleSpan When) override;
+  void linkBusy(bool IsToL2, CycleSpan When) override;
+  void commandSpent(CommandCycle What, CycleSpan When) override;
+  void dmaSpent(unsigned Engine, DmaCycle What, CycleSpan When) override;
   void bankBusy(BankPlace Where, CycleSpan When) override;
   void dramCommand(unsigned Channel, const dram::Issued &What,
                    CycleSpan Data) override;
@@ -55,7 +59,7 @@ private:
     size_t Reasons;
     std::function<std::string_view(size_t)> NameOf;
     std::vector<uint32_t> Cycles; ///< by window and reason
-    /// Of a bank or channel: the last figure, in tenths of a per cent.
+    /// Of one that has a figure: the last figure, in tenths of a per cent.
     uint64_t Shown = 0;
   };
   template <typename Reason>
@@ -63,6 +67,7 @@ private:
                 unsigned Count);
   void addBanks(std::vector<Row> &To, unsigned Process, const std::string &Of,
                 unsigned Count);
+  void addShare(std::vector<Row> &To, unsigned Process, const std::string &Of);
   void add(Row &R, size_t Reason, CycleSpan When);
   void widen();
   void writeUnit(const Row &R);
@@ -76,6 +81,8 @@ private:
   std::shared_ptr<const EnergyModel> Energy;
   TraceEvents Out;
   std::vector<Row> Cores, Rasters, Pixels;
+  std::vector<Row> Link; ///< to the L2 and back, if the machine has one
+  std::vector<Row> Commands, Dmas; ///< if the machine has them
   std::vector<Row> L2, Llc, Channels;
   const unsigned L2Banks;
   uint64_t ShownPower = 0;      ///< mW

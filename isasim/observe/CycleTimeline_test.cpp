@@ -19,12 +19,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A timeline of a machine with two cores in memory.
+/// A timeline, in memory, of a machine with two cores and a link.
 class CycleTimelineTest : public testing::Test {
 protected:
   CycleTimelineTest() {
     Shape.CoresPerSocket = 2;
     Shape.SocketsPerCluster = 1;
+    Shape.Timing.Link.ToL2Ns = 25;
     Times.emplace(File.get(), Shape);
   }
 
@@ -139,6 +140,22 @@ TEST_F(CycleTimelineTest, ABankHasAFigureThatIsToldWhenItChanges) {
     }
   EXPECT_EQ(Told, (std::vector<std::pair<uint64_t, double>>{
                       {0, 50}, {32, 6.3}, {48, 25}}));
+}
+
+TEST_F(CycleTimelineTest, DirectionsOfALinkHaveFigures) {
+  Times->timeBegins(0);
+  Times->linkBusy(true, {0, 8});
+  Times->linkBusy(false, {16, 32});
+  Times->timeEnds(32);
+  Times->runEnded("");
+  std::vector<std::pair<std::string, double>> Told;
+  for (const Json &E : events())
+    if (E["ph"] == "C")
+      Told.emplace_back(E["name"], E["args"]["value"]);
+  EXPECT_EQ(Told, (std::vector<std::pair<std::string, double>>{
+                      {"to the L2, % busy", 50},
+                      {"to the L2, % busy", 0},
+                      {"from the L2, % busy", 100}}));
 }
 
 TEST_F(CycleTimelineTest, PowerFollowsTheWorkAndAddsUpToTheEnergy) {

@@ -42,6 +42,9 @@ public:
   }
   void dramCommand(unsigned Number, const dram::Issued &What,
                    CycleSpan) override {
+    // Other models take both halves of an activation for one command.
+    if (What.What == dram::Command::Activate2)
+      return;
     Channels[Number].Issued.push_back(What);
   }
 

@@ -1,8 +1,10 @@
-/// Loads shared objects: observers that watch runs, and exponential units.
+/// Loads shared objects: observers that watch runs, exponential units, and
+/// policies of the clock.
 #include "vorion/isasim/Plugin.h"
 
 #include "observe/Tool.h"
 #include "raster/PluggedExp.h"
+#include "timing/policy/Policy.h"
 
 #include <algorithm>
 #include <dlfcn.h>
@@ -42,9 +44,10 @@ Expected<const Plugin *> load(const std::string &Path) {
   if (Found->Layout != pluginLayout())
     return Error{Path, "was built with headers of another version, expected "
                        "those of this simulator"};
-  if (!Found->Make && !Found->Exp.Evaluate)
-    return Error{Path, "has neither an observer nor an exponential unit, "
-                       "expected at least one"};
+  const PolicyMakers &P = Found->Policies;
+  if (!Found->Make && !Found->Exp.Evaluate && !P.Cache && !P.Dram && !P.Warps)
+    return Error{Path, "has no observer, exponential unit or policy, expected "
+                       "at least one"};
   return Found;
 }
 
@@ -75,10 +78,38 @@ Expected<Success> plug(const std::string &Path, const ExpUnitPlugin &Unit,
   return Success{};
 }
 
+/// The maker of one policy, \p What.
+template <typename Maker>
+Expected<Success> plug(const std::string &Path, Maker New, Maker &Old,
+                       std::string_view What, const ToolOutput &To) {
+  if (!New || New == Old)
+    return Success{};
+  if (Old)
+    return Error{Path, fmt::format("{} a second time, expected at most one "
+                                   "plugin of a process that does",
+                                   What)};
+  Old = New;
+  To.Report(fmt::format("{}: {}", Path, What));
+  return Success{};
+}
+
+Expected<Success> plug(const std::string &Path, const PolicyMakers &New,
+                       const ToolOutput &To) {
+  PolicyMakers &Old = pluggedPolicies();
+  if (auto Ok =
+          plug(Path, New.Cache, Old.Cache, "replaces lines of data caches", To);
+      !Ok)
+    return Ok;
+  if (auto Ok = plug(Path, New.Dram, Old.Dram, "schedules DRAM", To); !Ok)
+    return Ok;
+  return plug(Path, New.Warps, Old.Warps, "schedules warps", To);
+}
+
 class PluginTool : public Tool {
 public:
-  explicit PluginTool(std::vector<std::unique_ptr<Observer>> MadeIn)
-      : Made(std::move(MadeIn)) {}
+  explicit PluginTool(std::string Text,
+                      std::vector<std::unique_ptr<Observer>> MadeIn)
+      : Plugins(std::move(Text)), Made(std::move(MadeIn)) {}
   std::vector<Observer *> observers() override {
     std::vector<Observer *> All;
     All.reserve(Made.size());
@@ -86,8 +117,15 @@ public:
       All.push_back(O.get());
     return All;
   }
+  Expected<Success> runEnded(const std::string & /*Name*/,
+                             const RunResult & /*R*/) override {
+    std::string Fault = takePolicyFault();
+    return Fault.empty() ? Expected<Success>(Success{})
+                         : Error{Plugins, std::move(Fault)};
+  }
 
 private:
+  std::string Plugins; ///< the files
   std::vector<std::unique_ptr<Observer>> Made;
 };
 
@@ -102,13 +140,16 @@ Expected<std::unique_ptr<Tool>> make(const std::string &Text,
     if ((*Found)->Exp.Evaluate)
       if (auto Ok = plug(Path, (*Found)->Exp, To); !Ok)
         return Ok.error();
+    if (auto Ok = plug(Path, (*Found)->Policies, To); !Ok)
+      return Ok.error();
     if (!(*Found)->Make)
       continue;
     All.push_back((*Found)->Make());
     if (!All.back())
       return Error{Path, "created no observer, expected one"};
   }
-  return std::unique_ptr<Tool>(std::make_unique<PluginTool>(std::move(All)));
+  return std::unique_ptr<Tool>(
+      std::make_unique<PluginTool>(Text, std::move(All)));
 }
 
 } // namespace

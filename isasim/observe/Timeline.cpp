@@ -1,5 +1,5 @@
 /// What every warp and rasterizer did and when, for Perfetto
-/// (docs/debugging.md, "Timeline").
+/// (docs/profiling.md, "Timeline").
 #include "core/Core.h"
 #include "machine/Report.h"
 #include "observe/CycleTimeline.h"

@@ -1,9 +1,11 @@
 #include "pixel/PixelUnit.h"
 
 #include "raster/CommandInput.h"
+#include "raster/PixelRanges.h"
 
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace vorion::pixel {
 
@@ -37,6 +39,7 @@ private:
   const Datapath &Lanes;
   bool KeepsFetches;
   Tail Record;
+  std::optional<PixelRanges> Ranges;
   TailWork Work;
   const Job &Task = Work.What;
 };
@@ -52,7 +55,19 @@ Execution::Execution(const HandOver &Next, RasterMemory &Global,
   // is.
   Command Rest;
   static_cast<TileWords &>(Rest) = Record.Rest;
+  if (Next.HasRange) {
+    TailRange Range;
+    std::memcpy(&Range,
+                Memory.range(Next.Record + sizeof(Record), sizeof(Range)),
+                sizeof(Range));
+    Rest.Mode = Range.Mode;
+    Rest.Limit = Range.Limit;
+    Rest.LimitFirst = Range.LimitFirst;
+    Rest.From = Range.From;
+  }
   Work.What = checkCommand(Rest, Memory);
+  if (Rest.Mode & ~TailRangeModes)
+    Work.What.Refusal = VR_BAD_MODE;
   Work.Status = Task.Refusal;
   Work.Counts.Tails = 1;
 }
@@ -61,8 +76,8 @@ Execution::Execution(const HandOver &Next, RasterMemory &Global,
 /// until the last of them.
 void Execution::keepVisits(uint32_t Examined) {
   for (TailWork::OpenPixel &P : Work.Pixels)
-    if (P.Visits == 0 && (Examined == Task.Count ||
-                          std::signbit(Tile.T[P.Y * TileBuffer::Stride + P.X])))
+    if (P.Visits == 0 &&
+        (Examined == Task.Count || (Ranges->leftOf(P.Y) >> P.X & 1) == 0))
       P.Visits = Examined;
 }
 
@@ -78,41 +93,43 @@ template <typename Function> void Execution::forLivePixels(Function Use) {
 void Execution::loadPixels() {
   Tile.reset(Task.X, Task.Y, Task.Width, Task.Height);
   // All closed but those that the record names.
-  for (float &T : Tile.T)
-    T = -T;
-  for (uint32_t &Live : Tile.RowLive)
-    Live = 0;
-  Tile.Live = 0;
+  for (unsigned Row = 0; Row != Task.Height; ++Row)
+    for (unsigned Column = 0; Column != Task.Width; ++Column)
+      if (!isLive(Row, Column))
+        Tile.set(Row, Column, {0, 0, 0, -1});
   forLivePixels([&](const std::byte *From, unsigned Row, unsigned Column) {
     Pixel P;
     std::memcpy(&P, From, sizeof(P));
-    const unsigned At = Row * TileBuffer::Stride + Column;
-    Tile.R[At] = P.R;
-    Tile.G[At] = P.G;
-    Tile.B[At] = P.B;
-    Tile.T[At] = std::fabs(P.T);
-    ++Tile.RowLive[Row];
-    ++Tile.Live;
+    P.T = std::fabs(P.T);
+    Tile.set(Row, Column, P);
     if (KeepsFetches)
       Work.Pixels.push_back(
           {static_cast<uint8_t>(Column), static_cast<uint8_t>(Row), 0});
   });
+  Ranges.emplace(Task, Memory, Tile);
 }
 
 uint32_t Execution::blend() {
   const GaussianList List(Task, Memory);
   Fetched Entry;
-  for (uint32_t I = 0; I != Task.Count && Tile.Live != 0; ++I) {
-    const uint32_t OpenBefore = Tile.Live;
-    Work.Counts.TailVisits += OpenBefore;
+  uint32_t LeftBefore = Ranges->left();
+  for (uint32_t I = 0; I != Task.Count; ++I) {
+    const bool IsLeft = Ranges->goTo(I);
+    if (KeepsFetches && Ranges->left() != LeftBefore)
+      keepVisits(I);
+    if (!IsLeft)
+      break;
+    LeftBefore = Ranges->left();
+    Work.Counts.TailVisits += Tile.Live;
     if (const uint32_t Status = List.fetch(I, Entry))
       return Status;
     Work.Counts.TailBlends +=
         blendFunction(Task, Lanes)(Entry.Record, Task.Blend, Tile).Blends;
     if (KeepsFetches) {
       Work.Records.push_back(Entry.Address);
-      if (Tile.Live != OpenBefore || I + 1 == Task.Count)
+      if (Ranges->left() != LeftBefore || I + 1 == Task.Count)
         keepVisits(I + 1);
+      LeftBefore = Ranges->left();
     }
   }
   return VR_OK;
@@ -120,8 +137,7 @@ uint32_t Execution::blend() {
 
 void Execution::storePixels() {
   forLivePixels([&](std::byte *To, unsigned Row, unsigned Column) {
-    const unsigned At = Row * TileBuffer::Stride + Column;
-    const Pixel P{Tile.R[At], Tile.G[At], Tile.B[At], std::fabs(Tile.T[At])};
+    const Pixel P = Ranges->written(Row, Column);
     std::memcpy(To, &P, sizeof(P));
   });
 }
@@ -129,11 +145,12 @@ void Execution::storePixels() {
 TailWork Execution::run() {
   if (!Task.Refusal) {
     loadPixels();
-    Work.Counts.TailPixels = Tile.Live;
+    Work.Counts.TailPixels = Ranges->left();
     Work.Status = blend();
   }
   if (Work.Status == VR_OK) {
-    Work.Saturated = static_cast<uint32_t>(Work.Counts.TailPixels) - Tile.Live;
+    Work.Saturated =
+        static_cast<uint32_t>(Work.Counts.TailPixels) - Ranges->left();
     storePixels();
   }
   return std::move(Work);

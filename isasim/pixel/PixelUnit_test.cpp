@@ -86,6 +86,67 @@ TEST_F(PixelUnitTest, PicturesKeepTheirBits) {
   EXPECT_GT(HandedOver, 30U);
 }
 
+// Pixels whose ranges begin and end in front of the hand-over and behind it.
+TEST_F(PixelUnitTest, RangesKeepTheirBits) {
+  const std::vector<Gaussian> Scene = randomScene(90);
+  constexpr uint32_t From = Record + 0x1000, To = Record + 0x4000;
+  std::mt19937 Random{7};
+  std::vector<uint32_t> Words(2048);
+  for (const uint32_t At : {From, To}) {
+    for (uint32_t &W : Words)
+      W = Random() % 100;
+    Memory.put(At, std::span<const uint32_t>(Words));
+  }
+  const TileCommand Tile{.Cutoff = 0.2F, .X = 3, .Height = 32};
+  const auto Draw = [&](uint32_t Mode, uint32_t Count, uint32_t Share) {
+    Memory.put(Pixels, std::span<const Pixel>(
+                           std::vector<Pixel>(2048, Pixel{1, 2, 3, 0.5F})));
+    configure(Scene, Tile);
+    set(Csr::Mode, Mode);
+    for (const auto &[Number, Value] : {std::pair{VR_WORD_FROM, From},
+                                        {VR_WORD_LIMIT, To},
+                                        {VR_WORD_LIMIT_FIRST, 4U}}) {
+      set(Csr::Index, Number);
+      set(Csr::Word, Value);
+    }
+    handOverAt(Count, Share);
+    EXPECT_EQ(startAll(), VR_OK);
+    return pixels(64, 32);
+  };
+  const uint32_t Modes[] = {ModeLimited.put(1),
+                            ModeFrom.put(1) | ModeLoad.put(1),
+                            ModeKeepSaturated.put(1),
+                            ModeFrom.put(1) | ModeLimited.put(1) |
+                                ModeLoad.put(1) | ModeKeepSaturated.put(1)};
+  for (const uint32_t Mode : Modes) {
+    const std::vector<Pixel> Alone = Draw(Mode, 0, 0);
+    const std::pair<uint32_t, uint32_t> Reasons[] = {
+        {1, 0}, {30, 0}, {75, 0}, {90, 0}, {0, 1}, {0, 20000}, {0, 60000}};
+    for (const auto &[Count, Share] : Reasons)
+      EXPECT_EQ(Draw(Mode, Count, Share), Alone) << Mode << ' ' << Count;
+  }
+  EXPECT_GT(Agent.counters().Tails, 12U);
+  // What follows the record is checked, too.
+  configure(Scene, {.Cutoff = 0, .Height = 32});
+  set(Csr::Mode, Modes[0]);
+  handOverAt(30);
+  set(Csr::Start, 1U);
+  rasterize();
+  const TailRange Range = Memory.get<TailRange>(Record + sizeof(Tail), 1)[0];
+  EXPECT_EQ(Range.LimitFirst, 4 + 60U);
+  EXPECT_EQ(Range.Mode, ModeLimited.put(1));
+  for (const TailRange Spoilt : {TailRange{ModeBackward.put(1), To, 0, 0},
+                                 {ModeLimited.put(1), 2, 0, 0},
+                                 {ModeFrom.put(1), To, 0, 0}}) {
+    set(Csr::Start, 1U);
+    rasterize();
+    Memory.put(Record + sizeof(Tail), std::span(&Spoilt, 1));
+    while (Tails.step()) {
+    }
+    EXPECT_NE(Agent.read(Csr::Wait, 0), VR_OK) << Spoilt.Mode;
+  }
+}
+
 TEST_F(PixelUnitTest, BlendsAreShared) {
   const std::vector<Gaussian> Scene = randomScene(300);
   render(Scene, {.Cutoff = 0});

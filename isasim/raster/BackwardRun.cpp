@@ -8,7 +8,7 @@ namespace vorion::raster {
 BackwardRun::BackwardRun(const RasterAgent &Agent, RasterMemory &Global,
                          BackwardBuffer &Buffer, const BackwardDatapath &Lanes,
                          const WorkLog *Log)
-    : Work(beginCommand(Agent, Global)), Memory(Global), Tile(Buffer),
+    : BatchRun(beginCommand(Agent, Global)), Memory(Global), Tile(Buffer),
       Unit(Lanes), Options(Task.Backward), List(Task, Memory),
       KeepsFetches(Log && Log->wantsFetches()) {
   if (!Work.hasFailed())
@@ -63,19 +63,19 @@ uint32_t BackwardRun::through(uint32_t Entry, GradientSums &Sums) {
   return VR_OK;
 }
 
-std::optional<GradientBatch> BackwardRun::next() {
-  if (isDone())
-    return std::nullopt;
-  GradientBatch Batch;
-  Batch.Number = (Left - 1) / VR_GRAD_LANES;
-  const uint32_t First = Batch.Number * VR_GRAD_LANES;
-  Batch.Count = Left - First;
+std::optional<Batch> BackwardRun::next() {
+  Batch Made;
+  Made.Number = (Left - 1) / VR_GRAD_LANES;
+  const uint32_t First = Made.Number * VR_GRAD_LANES;
+  Made.Count = Left - First;
   for (; Left != First; --Left) {
-    Work.Status = through(Left - 1, Batch.Gaussians[Left - 1 - First]);
+    GradientSums Sums;
+    Work.Status = through(Left - 1, Sums);
     if (Work.hasFailed())
       return std::nullopt;
+    Made.Items[Left - 1 - First] = itemOf(Sums);
   }
-  return Batch;
+  return Made;
 }
 
 } // namespace vorion::raster

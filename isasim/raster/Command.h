@@ -4,6 +4,7 @@
 #include "raster/RasterTables.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -16,14 +17,20 @@ struct Command : BankWords {
   bool PushOverflowed = false;  ///< some did not fit the push buffer
 
   bool isBackward() const { return ModeBackward.get(Mode) != 0; }
+  /// Whether its core takes batches, and its end, with vr_grad_next.
+  bool handsOver() const {
+    return isBackward() || ModeFragments.get(Mode) != 0;
+  }
 };
 
 class RasterAgent;
 
-/// A hand-over: whose command goes on, and the address of its vx_tail.
+/// A hand-over: whose command goes on, the address of its vx_tail, and whether
+/// a vx_tail_range follows that.
 struct HandOver {
   RasterAgent *Agent;
   uint32_t Record;
+  bool HasRange;
 };
 
 /// A pixel as it leaves the rasterizer; the background is not applied.
@@ -44,12 +51,32 @@ struct GradientSums {
   bool operator==(const GradientSums &) const = default;
 };
 
-/// Gaussians that a backward command hands over together: entries
-/// VR_GRAD_LANES Number on of its list.
-struct GradientBatch {
+/// A fragment that is handed over: the words VR_ITEM_*.
+struct Fragment {
+  uint32_t Primitive; ///< tag of its triangle
+  uint32_t Pixel;     ///< column of the picture, and row times 2^16
+  float Depth;
+
+  bool operator==(const Fragment &) const = default;
+};
+
+/// What a lane has of a batch, by number of vr_item.
+inline constexpr unsigned ItemWords = sizeof(GradientSums) / 4;
+using BatchItem = std::array<uint32_t, ItemWords>;
+
+inline BatchItem itemOf(const GradientSums &G) {
+  return std::bit_cast<BatchItem>(G);
+}
+inline BatchItem itemOf(const Fragment &F) {
+  return {F.Primitive, F.Pixel, std::bit_cast<uint32_t>(F.Depth)};
+}
+
+/// What a command hands over together: entries VR_GRAD_LANES Number on of a
+/// backward command's list, or as many fragments.
+struct Batch {
   uint32_t Number = 0;
   uint32_t Count = 0; ///< 1 to VR_GRAD_LANES; 0: the command has ended
-  std::array<GradientSums, VR_GRAD_LANES> Gaussians{};
+  std::array<BatchItem, VR_GRAD_LANES> Items{};
 };
 
 } // namespace vorion::raster

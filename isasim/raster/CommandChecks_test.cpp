@@ -19,7 +19,7 @@ TEST_F(RasterizerTest, StatusCodesOfTheBank) {
   const auto F = [](float X) { return std::bit_cast<uint32_t>(X); };
   const uint32_t End = TestMemory::Base + (8 << 20);
   const Case Cases[] = {
-      {Csr::Mode, 32, VR_BAD_MODE},
+      {Csr::Mode, 1 << 13, VR_BAD_MODE},
       {Csr::Options, OptionsExp.put(VR_EXP_TABLE64), VR_OK},
       // Reserved: the units were removed.
       {Csr::Options, OptionsExp.put(7), VR_BAD_MODE},
@@ -73,7 +73,7 @@ TEST_F(RasterizerTest, StatusCodesOfTheBank) {
 TEST_F(RasterizerTest, FirstCheckDecides) {
   // Everything is wrong; repaired in the documented order.
   configure({});
-  set(Csr::Mode, 32U);
+  set(Csr::Mode, 1U << 13);
   set(Csr::TileShape, 0U);
   set(Csr::Cutoff, 1.0F);
   set(Csr::Count, 0xffffffffU);

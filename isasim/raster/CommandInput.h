@@ -6,6 +6,8 @@
 #include "raster/WorkLog.h"
 
 #include <cfenv>
+#include <cstring>
+#include <span>
 
 namespace vorion::raster {
 
@@ -43,38 +45,66 @@ std::byte *outputRow(const Job &J, RasterMemory &Memory, unsigned Row);
 std::byte *lastRow(const Job &J, RasterMemory &Memory, unsigned Row);
 std::byte *upstreamRow(const Job &J, RasterMemory &Memory, unsigned Row);
 
+/// Likewise the rows of the ends and the beginnings of its pixels' ranges.
+std::byte *limitRow(const Job &J, RasterMemory &Memory, unsigned Row);
+std::byte *fromRow(const Job &J, RasterMemory &Memory, unsigned Row);
+
 /// Entries of a list between two looks at whether the run is over or the log is
 /// full: of the largest tiles milliseconds.
 inline constexpr uint32_t LongestStretch = 4096;
 
 /// One entry of a list, and the record that it names.
-struct Fetched {
-  Gaussian Record;
+template <typename Kind> struct FetchedRecord {
+  Kind Record;
   uint32_t Address; ///< of the record
   bool Intersects;
 };
 
-/// VR_NAN if a float of \p G is a NaN, else VR_OK.
-uint32_t checkGaussian(const Gaussian &G);
+/// VR_NAN if one of \p Floats is a NaN, else VR_OK.
+uint32_t checkFloats(std::span<const float> Floats);
+
+/// Likewise of the floats of a record; each kind has such a function.
+uint32_t checkRecord(const Gaussian &G);
 
 /// The list of a command that was not refused.
-class GaussianList {
+class ListReader {
 public:
-  GaussianList(const Job &J, RasterMemory &Memory);
+  /// \p RecordBytes: of a record that an entry names.
+  ListReader(const Job &J, RasterMemory &Memory, uint32_t RecordBytes);
 
-  /// Reads entry \p I, below vr_count, with its record: VR_OK, VR_UNMAPPED or
-  /// VR_NAN.
-  uint32_t fetch(uint32_t I, Fetched &Out) const;
+protected:
+  /// The record of entry \p I, below vr_count, or nullptr if it is not there.
+  const std::byte *find(uint32_t I, uint32_t &Address, bool &Intersects) const;
 
 private:
   uint32_t entry(uint32_t I) const;
   uint64_t address(uint32_t Entry) const;
   const std::byte *record(uint32_t Entry) const;
 
-  uint32_t Gaussians; ///< address of the records
+  uint32_t Records; ///< address of the first
+  uint32_t RecordBytes;
   uint32_t Count;
   RasterMemory &Memory;
   const std::byte *Entries;
 };
+
+template <typename Kind> class RecordList : ListReader {
+public:
+  RecordList(const Job &J, RasterMemory &Memory)
+      : ListReader(J, Memory, sizeof(Kind)) {}
+
+  /// Reads entry \p I, below vr_count, with its record: VR_OK, VR_UNMAPPED or
+  /// VR_NAN.
+  uint32_t fetch(uint32_t I, FetchedRecord<Kind> &Out) const {
+    const std::byte *Found = find(I, Out.Address, Out.Intersects);
+    if (!Found)
+      return VR_UNMAPPED;
+    std::memcpy(&Out.Record, Found, sizeof(Out.Record));
+    return checkRecord(Out.Record);
+  }
+};
+
+using Fetched = FetchedRecord<Gaussian>;
+using GaussianList = RecordList<Gaussian>;
 
 } // namespace vorion::raster

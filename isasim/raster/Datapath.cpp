@@ -1,6 +1,9 @@
 #include "raster/Datapath.h"
 
+#include "raster/Command.h"
 #include "raster/LevelChoice.h"
+
+#include <cmath>
 
 namespace vorion::raster {
 
@@ -17,6 +20,18 @@ void TileBuffer::reset(unsigned X, unsigned Y, unsigned Width,
   for (unsigned I = 0; I != Stride; ++I)
     RowLive[I] = I < Height ? Width : 0;
   Live = Width * Height;
+}
+
+void TileBuffer::set(unsigned Row, unsigned Column, const Pixel &P) {
+  const unsigned At = Row * Stride + Column;
+  R[At] = P.R;
+  G[At] = P.G;
+  B[At] = P.B;
+  T[At] = P.T;
+  if (!std::signbit(P.T))
+    return;
+  --RowLive[Row];
+  --Live;
 }
 
 #define VORION_LEVEL(Name) extern const Datapath Datapath_##Name;

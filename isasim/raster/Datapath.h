@@ -13,6 +13,8 @@
 
 namespace vorion::raster {
 
+struct Pixel;
+
 /// The pixel buffer of a whole tile, planes of VR_MAX_TILE columns a row.
 struct TileBuffer {
   static constexpr unsigned Stride = VR_MAX_TILE;
@@ -36,6 +38,10 @@ struct TileBuffer {
   /// Colour 0 and transmittance 1 for a tile of \p Width x \p Height pixels
   /// (1 to VR_MAX_TILE each) at picture coordinates \p X, \p Y.
   void reset(unsigned X, unsigned Y, unsigned Width, unsigned Height);
+
+  /// Gives an open pixel of the tile the content \p P; the sign of its
+  /// transmittance says whether it is saturated.
+  void set(unsigned Row, unsigned Column, const Pixel &P);
 };
 
 /// What a command chooses in the datapath.

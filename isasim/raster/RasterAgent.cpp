@@ -83,7 +83,8 @@ uint32_t RasterAgent::read(Csr C, unsigned Lane) {
     return Word;
   }
   if (isGradientWord(C))
-    return gradientWord(C, Lane);
+    return itemWord(
+        static_cast<unsigned>(C) - static_cast<unsigned>(Csr::GradTag), Lane);
   const auto OfPixel = [&](float Pixel::*Part) -> uint32_t {
     // Outside the tile, and before there is one, a pixel reads as 0.
     const uint32_t Index = PixelIndex[Lane];
@@ -106,6 +107,14 @@ uint32_t RasterAgent::read(Csr C, unsigned Lane) {
   case Csr::Start:
   case Csr::Push:
     return 0;
+  case Csr::Index:
+    return Index;
+  case Csr::Word: {
+    const auto Word = indexedWord(Index);
+    return Word ? Bank.*Word : 0;
+  }
+  case Csr::Item:
+    return itemWord(Index, Lane);
   case Csr::PixelIndex:
     return PixelIndex[Lane];
   case Csr::PixelR:
@@ -124,7 +133,7 @@ uint32_t RasterAgent::read(Csr C, unsigned Lane) {
 bool RasterAgent::canTakeBatch() const {
   return !Batches.empty() ||
          std::none_of(Queue.begin(), Queue.end(),
-                      [](const Command &C) { return C.isBackward(); });
+                      [](const Command &C) { return C.handsOver(); });
 }
 
 uint32_t RasterAgent::takeBatch() {
@@ -137,19 +146,15 @@ uint32_t RasterAgent::takeBatch() {
   return GradNextCount.put(Shown.Count) | GradNextBatch.put(Shown.Number);
 }
 
-uint32_t RasterAgent::gradientWord(Csr C, unsigned Lane) const {
-  if (Lane >= Shown.Count)
-    return 0;
-  const GradientSums &G = Shown.Gaussians[Lane];
-  const unsigned Word =
-      static_cast<unsigned>(C) - static_cast<unsigned>(Csr::GradTag);
-  return Word == 0 ? G.Tag : std::bit_cast<uint32_t>(G.Sums[Word - 1]);
+uint32_t RasterAgent::itemWord(uint32_t Number, unsigned Lane) const {
+  return Lane < Shown.Count && Number < ItemWords ? Shown.Items[Lane][Number]
+                                                  : 0;
 }
 
-void RasterAgent::offer(const GradientBatch &Batch) {
-  assert(Batch.Count == 0 || hasRoom());
-  WaitingBatches += Batch.Count != 0;
-  Batches.push_back(Batch);
+void RasterAgent::offer(const Batch &Offered) {
+  assert(Offered.Count == 0 || hasRoom());
+  WaitingBatches += Offered.Count != 0;
+  Batches.push_back(Offered);
 }
 
 void RasterAgent::readLanes(Csr C, uint32_t Mask,
@@ -175,10 +180,7 @@ void RasterAgent::write(Csr C, std::span<const uint32_t> LaneValues,
   case WriteRule::Push:
     return push(Mask);
   case WriteRule::Scalar:
-    if (C == Csr::Start)
-      return start();
-    Bank.*bankWord(C) = LaneValues[lastLane(Mask)];
-    return;
+    return writeScalar(C, LaneValues[lastLane(Mask)]);
   case WriteRule::Lane:
     for (uint32_t Rest = Mask; Rest != 0; Rest &= Rest - 1) {
       const auto Lane = static_cast<unsigned>(std::countr_zero(Rest));
@@ -191,6 +193,17 @@ void RasterAgent::write(Csr C, std::span<const uint32_t> LaneValues,
     }
     return;
   }
+}
+
+void RasterAgent::writeScalar(Csr C, uint32_t Value) {
+  if (C == Csr::Start)
+    return start();
+  if (C == Csr::Index) {
+    Index = Value;
+    return;
+  }
+  if (const auto Word = C == Csr::Word ? indexedWord(Index) : bankWord(C))
+    Bank.*Word = Value;
 }
 
 void RasterAgent::push(uint32_t Mask) {

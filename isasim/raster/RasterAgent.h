@@ -20,7 +20,7 @@ struct AgentConfig {
   unsigned Lanes = 16;
   unsigned QueueDepth = 4; ///< commands, the running one included
   unsigned Core = 0;       ///< whose agent it is
-  unsigned BatchDepth = 2; ///< batches of gradients that wait for the core
+  unsigned BatchDepth = 2; ///< batches that wait for the core
 };
 
 /// What an agent that has no command under way keeps from one run to the next.
@@ -31,7 +31,8 @@ struct AgentState {
   bool PushOverflowed = false;
   std::vector<uint32_t> PixelIndex; ///< one a lane
   std::vector<Pixel> Drained;
-  GradientBatch Shown; ///< by vr_grad_*
+  Batch Shown;        ///< by vr_grad_* and vr_item
+  uint32_t Index = 0; ///< of vr_word and vr_item
   uint32_t FirstFailure = VR_OK;
   Counters Totals;
 };
@@ -61,7 +62,7 @@ public:
   bool isBusy() const { return hasCommand() || Tails != 0; }
 
   /// Whether a read of vr_grad_next can be answered: a batch, or the end of a
-  /// backward command, is there, or none is queued. Otherwise it stalls.
+  /// command that hands over, is there, or none is queued. Otherwise it stalls.
   bool canTakeBatch() const;
 
   /// What lane \p Lane reads from \p C. Reading vr_wait needs !isBusy() and
@@ -101,12 +102,12 @@ public:
   /// The pixel unit's part of a command has ended.
   void completeTail(uint32_t Status, const Counters &Work);
 
-  /// Whether there is room for a batch of gradients; a rasterizer that has one
+  /// Whether there is room for a batch; a rasterizer that has one
   /// halts until there is.
   bool hasRoom() const { return WaitingBatches < Config.BatchDepth; }
   /// Takes a batch, which needs hasRoom(), or one of Count 0, the end of a
-  /// backward command.
-  void offer(const GradientBatch &Batch);
+  /// command that hands over.
+  void offer(const Batch &Offered);
 
   /// Where a drained tile goes, row by row.
   std::vector<Pixel> &drainedTile() { return Drained; }
@@ -115,16 +116,17 @@ public:
 private:
   uint32_t readCounter(Csr C) const;
   uint32_t takeBatch();
-  uint32_t gradientWord(Csr C, unsigned Lane) const;
+  uint32_t itemWord(uint32_t Number, unsigned Lane) const;
+  void writeScalar(Csr C, uint32_t Value);
   void push(uint32_t Mask);
   void start();
   void finish(uint32_t Status, const Counters &Work);
 
   AgentConfig Config;
   std::deque<Command> Queue;
-  std::deque<GradientBatch> Batches; ///< and ends of commands
-  unsigned WaitingBatches = 0;       ///< of these, batches
-  unsigned Tails = 0;                ///< commands that the pixel unit has
+  std::deque<Batch> Batches;   ///< and ends of commands
+  unsigned WaitingBatches = 0; ///< of these, batches
+  unsigned Tails = 0;          ///< commands that the pixel unit has
 };
 
 } // namespace vorion::raster

@@ -13,8 +13,8 @@ Rasterizer::Rasterizer(RasterMemory &Global, std::vector<RasterAgent *> Served)
 Rasterizer::~Rasterizer() = default;
 
 bool Rasterizer::canStep() const {
-  if (Backward)
-    return Agents[Backward->Turn]->hasRoom();
+  if (Handing)
+    return Agents[Handing->Turn]->hasRoom();
   return Blending ||
          std::any_of(Agents.begin(), Agents.end(),
                      [](const RasterAgent *A) { return A->hasCommand(); });
@@ -24,23 +24,33 @@ bool Rasterizer::hasRoomInLog() const {
   return !Log || Log->hasRoom(Agents.front()->core());
 }
 
-void Rasterizer::startBackward(std::size_t Turn) {
-  if (!BackwardTile)
-    BackwardTile = std::make_unique<BackwardBuffer>();
-  Backward.emplace(Turn, *Agents[Turn], Memory, *BackwardTile, *BackwardLanes,
-                   Log);
-  nextBatch();
+/// For the oldest command of \p Agent, unless it is one that blends.
+std::unique_ptr<BatchRun> Rasterizer::makeBatchRun(const RasterAgent &Agent) {
+  const Command &C = Agent.front();
+  if (C.isBackward()) {
+    if (!BackwardTile)
+      BackwardTile = std::make_unique<BackwardBuffer>();
+    return std::make_unique<BackwardRun>(Agent, Memory, *BackwardTile,
+                                         *BackwardLanes, Log);
+  }
+  if (ModePrimitive.get(C.Mode) == VR_PRIMITIVE_CONIC && !C.handsOver())
+    return nullptr;
+  if (!SurfaceTile)
+    SurfaceTile = std::make_unique<SurfaceBuffer>();
+  return makeSurfaceRun(Agent, Memory, *SurfaceTile, Log);
 }
 
 /// Computes the batch that waits for room, as the machine's rasterizer does: so
 /// the clock knows of it before the core takes the one in front.
-void Rasterizer::nextBatch() {
-  BackwardRun &Run = Backward->Run;
-  Backward->Next = Run.next();
+void Rasterizer::compute() {
+  BatchRun &Run = *Handing->Run;
+  if (!Run.isDone())
+    Handing->Next = Run.next();
   if (Run.isDone()) {
     CommandWork Done = Run.takeWork();
-    Backward->Status = Done.Status;
-    Backward->Counts = Done.Counts;
+    Handing->IsComputed = true;
+    Handing->Status = Done.Status;
+    Handing->Counts = Done.Counts;
     if (Log)
       Log->command(std::move(Done));
   } else if (Log && Log->wantsFetches()) {
@@ -48,20 +58,20 @@ void Rasterizer::nextBatch() {
   }
 }
 
-/// Hands a batch over, or ends the command.
-void Rasterizer::stepBackward() {
-  RasterAgent &Agent = *Agents[Backward->Turn];
-  if (Backward->Next) {
-    Agent.offer(*Backward->Next);
-    if (Backward->Run.isDone())
-      Backward->Next.reset();
-    else
-      nextBatch();
+/// Hands a batch over, goes on, or ends the command.
+void Rasterizer::stepHanding() {
+  RasterAgent &Agent = *Agents[Handing->Turn];
+  if (Handing->Next) {
+    Agent.offer(*std::exchange(Handing->Next, std::nullopt));
+  } else if (Handing->IsComputed) {
+    if (Agent.front().handsOver())
+      Agent.offer({});
+    Agent.complete(Handing->Status, Handing->Counts);
+    Handing.reset();
     return;
   }
-  Agent.offer({});
-  Agent.complete(Backward->Status, Backward->Counts);
-  Backward.reset();
+  if (!Handing->IsComputed)
+    compute();
 }
 
 void Rasterizer::stepBlending() {
@@ -75,7 +85,8 @@ void Rasterizer::stepBlending() {
   CommandWork Done = Run.takeWork();
   Blending.reset();
   if (Done.HandedOver) {
-    HandOvers.push_back({&Agent, Done.What.TailRecord});
+    HandOvers.push_back(
+        {&Agent, Done.What.TailRecord, Done.What.hasTailRange()});
     Agent.handOver(Done.Counts);
   } else {
     Agent.complete(Done.Status, Done.Counts);
@@ -88,18 +99,20 @@ bool Rasterizer::step() {
   if (!canStep())
     return false;
   const DefaultFloatEnvironment Environment;
-  if (!Backward && !Blending) {
+  if (!Handing && !Blending) {
     while (!Agents[Next]->hasCommand())
       Next = (Next + 1) % Agents.size();
     const std::size_t Turn = Next;
     Next = (Next + 1) % Agents.size();
-    if (Agents[Turn]->front().isBackward())
-      startBackward(Turn);
-    else
+    if (auto Run = makeBatchRun(*Agents[Turn])) {
+      Handing.emplace(Turn, std::move(Run));
+      compute();
+    } else {
       Blending.emplace(Turn, *Agents[Turn], Memory, *Tile, *Lanes, Log);
+    }
   }
-  if (Backward)
-    stepBackward();
+  if (Handing)
+    stepHanding();
   else
     stepBlending();
   return true;

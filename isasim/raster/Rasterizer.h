@@ -1,10 +1,11 @@
-/// The Gaussian rasterizer of a socket (paper, "Gaussian rasterizer
+/// The rasterizer of a socket (paper, "Gaussian rasterizer
 /// architecture"; docs/rasterizer.md).
 #pragma once
 
 #include "raster/BackwardRun.h"
 #include "raster/RasterAgent.h"
 #include "raster/RasterMemory.h"
+#include "raster/SurfaceRun.h"
 #include "raster/TileRun.h"
 #include "raster/WorkLog.h"
 
@@ -15,7 +16,8 @@
 namespace vorion::raster {
 
 /// Serves the Raster Agents of its socket round-robin, one tile command at a
-/// time. A backward command halts it while its agent has no room for a batch.
+/// time. A command that hands batches over halts it while its agent has no room
+/// for one.
 /// Function only: a command's result depends on nothing but the command and
 /// memory when it is executed.
 ///
@@ -27,8 +29,8 @@ public:
   Rasterizer(RasterMemory &Memory, std::vector<RasterAgent *> Agents);
   ~Rasterizer();
 
-  /// Goes on with the command, or begins the next one: to the next batch of a
-  /// backward one, of others by a stretch of the list. False if canStep() is.
+  /// Goes on with the command, or begins the next one: to its next batch, or by
+  /// a stretch of the list. False if canStep() is.
   bool step();
   /// Whether there is a command, and no agent has to take a batch first.
   bool canStep() const;
@@ -69,21 +71,20 @@ private:
     std::size_t Turn;
     TileRun Run;
   };
-  /// A backward command, and the batch that waits for room in its agent.
+  /// A command that may hand batches over, and the batch that waits for room in
+  /// its agent.
   struct Halted {
-    template <typename... Rest>
-    Halted(std::size_t Turn, Rest &&...Of)
-        : Turn(Turn), Run(std::forward<Rest>(Of)...) {}
     std::size_t Turn;
-    BackwardRun Run;
-    std::optional<GradientBatch> Next; ///< none: the command's end waits
-    /// Once all has been computed.
+    std::unique_ptr<BatchRun> Run;
+    std::optional<Batch> Next;
+    bool IsComputed = false; ///< all has been, and the log knows
+    /// Only then.
     uint32_t Status = VR_OK;
     Counters Counts;
   };
-  void startBackward(std::size_t Turn);
-  void nextBatch();
-  void stepBackward();
+  std::unique_ptr<BatchRun> makeBatchRun(const RasterAgent &Agent);
+  void compute();
+  void stepHanding();
   void stepBlending();
 
   RasterMemory &Memory;
@@ -94,7 +95,8 @@ private:
   const Datapath *Lanes;
   std::unique_ptr<BackwardBuffer> BackwardTile; ///< made when first needed
   const BackwardDatapath *BackwardLanes;
-  std::optional<Halted> Backward;
+  std::unique_ptr<SurfaceBuffer> SurfaceTile; ///< likewise
+  std::optional<Halted> Handing;
   std::optional<Blended> Blending;
   WorkLog *Log = nullptr;
 };

@@ -1,7 +1,6 @@
 #include "raster/TileRun.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 namespace vorion::raster {
@@ -14,8 +13,27 @@ TileRun::TileRun(RasterAgent &Served, RasterMemory &Global, TileBuffer &Buffer,
       Tests(KeepsFetches ? Log->blockTests() : 0) {
   if (Log)
     Work.Pushed = Current.Pushed;
-  if (!Work.hasFailed())
-    Tile.reset(Task.X, Task.Y, Task.Width, Task.Height);
+  if (Work.hasFailed())
+    return;
+  Tile.reset(Task.X, Task.Y, Task.Width, Task.Height);
+  if (Task.LoadsPixels)
+    loadPixels();
+  Ranges.emplace(Task, Memory, Tile);
+  // Nobody fetches what no pixel takes.
+  Done = Work.First = Ranges->first(
+      Task.TakesPushed ? static_cast<uint32_t>(Current.Pushed.size())
+                       : Task.Count);
+}
+
+void TileRun::loadPixels() {
+  for (unsigned Row = 0; Row != Task.Height; ++Row) {
+    const std::byte *From = outputRow(Task, Memory, Row);
+    for (unsigned Column = 0; Column != Task.Width; ++Column) {
+      Pixel P;
+      std::memcpy(&P, From + Column * sizeof(P), sizeof(P));
+      Tile.set(Row, Column, P);
+    }
+  }
 }
 
 void TileRun::blendOne(const Gaussian &G, uint32_t Address, bool Intersects,
@@ -32,17 +50,16 @@ void TileRun::blendOne(const Gaussian &G, uint32_t Address, bool Intersects,
   if (Tests.any() && !Result.Clipped) {
     const BlockWork Left = Tests.count(G, Result, Options.MinAlpha, Tile);
     Work.Gaussians.back().Blocks = Left.Blocks;
-    Work.Gaussians.back().BlockPixels = Left.Pixels;
+    Work.Gaussians.back().ChosenPixels = Left.Pixels;
   }
 }
 
 /// True, as of the others, once there is nothing left to blend.
 bool TileRun::blendPushed() {
-  for (const Gaussian &G : Current.Pushed) {
-    if (Tile.Live == 0)
-      break;
+  for (; Done != Current.Pushed.size() && Ranges->goTo(Done); ++Done) {
+    const Gaussian &G = Current.Pushed[Done];
     ++Work.Counts.Gaussians;
-    Work.Status = checkGaussian(G);
+    Work.Status = checkRecord(G);
     if (Work.hasFailed())
       break;
     blendOne(G, 0, (G.Tag & VR_INTERSECT) != 0, Task.Blend);
@@ -53,7 +70,7 @@ bool TileRun::blendPushed() {
 /// Whether a reason to hand over holds with \p Remaining entries left.
 bool TileRun::isTail(uint32_t Remaining) const {
   const uint64_t Pixels = uint64_t{Task.Width} * Task.Height;
-  const uint64_t Saturated = Pixels - Tile.Live;
+  const uint64_t Saturated = Pixels - Ranges->left();
   return Remaining <= Task.TailCount ||
          (Task.TailShare != 0 &&
           Saturated * VR_TAIL_WHOLE >= Task.TailShare * Pixels);
@@ -63,7 +80,7 @@ bool TileRun::blendList() {
   BlendOptions Options = Task.Blend;
   Fetched Entry;
   const uint32_t End = Done + std::min(LongestStretch, Task.Count - Done);
-  for (; Done != End && Tile.Live != 0; ++Done) {
+  for (; Done != End && Ranges->goTo(Done); ++Done) {
     if (Task.mayHandOver() && isTail(Task.Count - Done)) {
       Work.HandedOver = true;
       return true;
@@ -75,7 +92,7 @@ bool TileRun::blendList() {
     Options.Entry = Done;
     blendOne(Entry.Record, Entry.Address, Entry.Intersects, Options);
   }
-  return Done == Task.Count || Tile.Live == 0;
+  return Done == Task.Count || Ranges->left() == 0;
 }
 
 bool TileRun::blend() {
@@ -86,9 +103,7 @@ bool TileRun::blend() {
 
 void TileRun::copyRow(unsigned Row, std::byte *To) const {
   for (unsigned Column = 0; Column != Task.Width; ++Column) {
-    const unsigned At = Row * TileBuffer::Stride + Column;
-    // T's sign says "saturated", no more.
-    const Pixel P{Tile.R[At], Tile.G[At], Tile.B[At], std::fabs(Tile.T[At])};
+    const Pixel P = Ranges->written(Row, Column);
     std::memcpy(To + Column * sizeof(Pixel), &P, sizeof(Pixel));
   }
 }
@@ -114,13 +129,19 @@ void TileRun::writeTail() const {
   Record.Rest.List += 4 * Done;
   Record.Rest.Count -= Done;
   Record.Core = Work.Core;
-  Record.LiveCount = Tile.Live;
-  for (unsigned Row = 0; Row != Task.Height; ++Row)
-    for (unsigned Column = 0; Column != Task.Width; ++Column)
-      if (!std::signbit(Tile.T[Row * TileBuffer::Stride + Column]))
-        Record.Live[2 * Row + Column / 32] |= 1U << Column % 32;
-  std::memcpy(Memory.range(Task.TailRecord, sizeof(Record)), &Record,
-              sizeof(Record));
+  Record.LiveCount = Ranges->left();
+  for (unsigned Row = 0; Row != Task.Height; ++Row) {
+    const uint64_t Left = Ranges->leftOf(Row);
+    Record.Live[2 * Row] = static_cast<uint32_t>(Left);
+    Record.Live[2 * Row + 1] = static_cast<uint32_t>(Left >> 32);
+  }
+  std::byte *To = Memory.range(Task.TailRecord, Task.tailBytes());
+  std::memcpy(To, &Record, sizeof(Record));
+  if (!Task.hasTailRange())
+    return;
+  const TailRange Range{Current.Mode & TailRangeModes, Task.Limit,
+                        Task.LimitFirst + Done, Task.From};
+  std::memcpy(To + sizeof(Record), &Range, sizeof(Range));
 }
 
 void TileRun::writeCounts() const {
@@ -135,7 +156,7 @@ void TileRun::writeCounts() const {
 
 void TileRun::writeResult() {
   if (!Work.hasFailed()) {
-    Work.Saturated = uint32_t{Task.Width} * Task.Height - Tile.Live;
+    Work.Saturated = uint32_t{Task.Width} * Task.Height - Ranges->left();
     writePixels();
     if (Task.KeepsCounts)
       writeCounts();

@@ -4,9 +4,11 @@
 #include "raster/BlockTests.h"
 #include "raster/CommandInput.h"
 #include "raster/Datapath.h"
+#include "raster/PixelRanges.h"
 #include "raster/RasterMemory.h"
 #include "raster/WorkLog.h"
 
+#include <optional>
 #include <utility>
 
 namespace vorion::raster {
@@ -32,6 +34,7 @@ public:
   CommandWork takeWork() { return std::move(Work); }
 
 private:
+  void loadPixels();
   bool blend();
   bool blendPushed();
   bool blendList();
@@ -55,7 +58,8 @@ private:
   GaussianList List;
   bool KeepsFetches;
   BlockTests Tests;
-  uint32_t Done = 0; ///< entries of the list
+  std::optional<PixelRanges> Ranges; ///< of a command that is not refused
+  uint32_t Done = 0;                 ///< entries of the list
 };
 
 } // namespace vorion::raster

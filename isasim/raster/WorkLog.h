@@ -9,16 +9,19 @@
 
 namespace vorion::raster {
 
-/// A Gaussian that was fetched.
+/// A Gaussian, or another primitive, that was fetched.
 struct GaussianWork {
   uint32_t Address; ///< of its record, 0 for a pushed one
   /// Its box cut to the tile, in pixels of the tile; Width 0 if it misses.
   uint8_t X, Y, Width, Height;
   uint16_t Slots;  ///< pixels given to lanes
-  bool SpansTiles; ///< the tag's intersect bit
+  bool SpansTiles; ///< the entry's or the tag's intersect bit
   /// Of the tile's blocks of 4 x 4 pixels those that WorkLog::blockTests()
-  /// leaves of the box, and the box's pixels in them.
-  uint16_t Blocks = 0, BlockPixels = 0;
+  /// leaves of the box.
+  uint16_t Blocks = 0;
+  /// Of the box's pixels, a Gaussian's that are in these blocks, or an opaque
+  /// primitive's that were handed over.
+  uint16_t ChosenPixels = 0;
 };
 
 /// A command that a rasterizer has executed.
@@ -32,6 +35,8 @@ struct CommandWork {
   /// Entries of its list that a backward command goes through, from this one
   /// down to the first.
   uint32_t Entries = 0;
+  /// The entry of its list that any other fetches first.
+  uint32_t First = 0;
   /// In the order of the fetches, up to one that cannot be blended; without
   /// those of earlier parts. Empty where nobody wants them.
   std::vector<GaussianWork> Gaussians;
@@ -70,7 +75,7 @@ public:
   /// Whether the fetches are wanted: Gaussians, Records and Pixels.
   virtual bool wantsFetches() const { return false; }
   /// Only then: what has been fetched of a command, of which there is more to
-  /// come. Of \p Begun nothing is known but Core, What and Entries.
+  /// come. Of \p Begun nothing is known but Core, What, Entries and First.
   virtual void part(const CommandWork & /*Begun*/,
                     std::vector<GaussianWork> && /*Fetched*/) {}
   /// Whether the rasterizer, or the pixel unit, of core \p Core may go on.

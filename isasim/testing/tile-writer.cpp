@@ -32,7 +32,8 @@ private:
 
   void rasterCommand(const raster::CommandWork &Work) override {
     const raster::Job &J = Work.What;
-    if (!File || !Device || J.Refusal || J.IsBackward || J.TakesPushed)
+    if (!File || !Device || J.Refusal || J.IsBackward || J.TakesPushed ||
+        J.Units.isOpaque())
       return;
     RasterTile T;
     std::snprintf(T.What.Name.data(), T.What.Name.size(), "%u,%u", J.X, J.Y);
@@ -42,16 +43,15 @@ private:
     T.What.Height = J.Height;
     T.What.Cutoff = J.Blend.StopBelow;
     T.What.Gaussians = J.Count;
-    T.Gaussians.resize(J.Count);
+    const uint32_t Bytes = T.recordBytes();
+    T.Input.resize(size_t{J.Count} * Bytes / 4);
     for (uint32_t N = 0; N != J.Count; ++N) {
       uint32_t Entry = 0;
       std::memcpy(&Entry, Device->hostPointer(J.List + 4 * N, 4), 4);
       Entry &= ~raster::VR_INTERSECT;
-      std::memcpy(
-          &T.Gaussians[N],
-          Device->hostPointer(J.Gaussians + sizeof(T.Gaussians[N]) * Entry,
-                              sizeof(T.Gaussians[N])),
-          sizeof(T.Gaussians[N]));
+      std::memcpy(&T.Input[size_t{N} * Bytes / 4],
+                  Device->hostPointer(J.Gaussians + Bytes * Entry, Bytes),
+                  Bytes);
     }
     T.write(File);
   }

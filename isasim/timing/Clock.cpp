@@ -19,7 +19,12 @@ constexpr unsigned LongestStretch = 1 << 14;
 
 Clock::Clock(const Config &C, const HostBudget &BudgetIn)
     : Shape(C), Budget(BudgetIn), Timing(C.Timing), Name(nameOf(C)),
-      Memory(Timing, C.Clusters), Barriers(C.Barriers) {
+      Memory(Timing, C.Clusters,
+             C.coresPerCluster() + C.SocketsPerCluster + 1 +
+                 (HostUnits::exist(Timing) ? 1 : 0)),
+      Barriers(C.Barriers) {
+  // In a crossbar the instruction cache has the port of its socket's first
+  // core. Rasterizers and pixel units come behind all cores, DMA engines last.
   for (unsigned N = 0; N != C.cores(); ++N) {
     std::vector<TraceBuffer *> OfCore;
     for (unsigned W = 0; W != C.WarpsPerCore; ++W) {
@@ -28,21 +33,30 @@ Clock::Clock(const Config &C, const HostBudget &BudgetIn)
       Traces.back()->InterleavedStacks = Timing.Core.InterleavedStacks != 0;
       OfCore.push_back(Traces.back().get());
     }
-    Cores.emplace_back(Timing.Core, MemoryPort{C.clusterOf(N), N}, OfCore,
-                       C.Barriers, Timing.Socket.IcacheKib != 0);
+    Cores.emplace_back(Timing.Core,
+                       MemoryPort{C.clusterOf(N), N, N % C.coresPerCluster()},
+                       OfCore, C.Barriers, Timing.Socket.IcacheKib != 0,
+                       MemorySystem::reportsDequeues(Timing));
   }
   for (unsigned N = 0; N != C.sockets(); ++N)
-    Rasters.emplace_back(Timing,
-                         MemoryPort{N / C.SocketsPerCluster, placeOfRaster(N)},
-                         C.CoresPerSocket, C.Raster.QueueDepth,
-                         HostBudget::FetchBytes / 2 / C.sockets());
+    Rasters.emplace_back(
+        Timing,
+        MemoryPort{N / C.SocketsPerCluster, placeOfRaster(N),
+                   C.coresPerCluster() + N % C.SocketsPerCluster},
+        C.CoresPerSocket, C.Raster.QueueDepth,
+        HostBudget::FetchBytes / 2 / C.sockets());
   for (unsigned N = 0; N != C.Clusters; ++N)
-    Pixels.emplace_back(Timing, MemoryPort{N, placeOfPixels(N)},
+    Pixels.emplace_back(Timing,
+                        MemoryPort{N, placeOfPixels(N),
+                                   C.coresPerCluster() + C.SocketsPerCluster},
                         C.coresPerCluster(),
                         HostBudget::FetchBytes / 2 / C.Clusters);
   for (unsigned N = 0; N != C.sockets(); ++N)
     Codes.emplace_back(Timing.Socket,
-                       MemoryPort{N / C.SocketsPerCluster, placeOfCode(N)});
+                       MemoryPort{N / C.SocketsPerCluster, placeOfCode(N),
+                                  N % C.SocketsPerCluster * C.CoresPerSocket});
+  if (HostUnits::exist(Timing))
+    Host.emplace(Timing);
 }
 
 Clock::~Clock() = default;
@@ -90,6 +104,8 @@ void Clock::setObservers(std::vector<TimeObserver *> Observers) {
     Rasters[N].watch(Told, N);
   for (unsigned N = 0; N != Pixels.size(); ++N)
     Pixels[N].watch(Told, N);
+  if (Host)
+    Host->watch(Told);
   Memory.watch(Told);
 }
 
@@ -100,7 +116,7 @@ void Clock::begin(const CodeTable &Code) {
     Watch->tell([this](TimeObserver &O) { O.timeBegins(Begun); });
   OutOfOrder = 0;
   WorthTaking = false;
-  Memory.begin();
+  Memory.begin(Begun);
   for (Arrived &B : Barriers)
     B = {};
   for (const auto &T : Traces)
@@ -108,15 +124,77 @@ void Clock::begin(const CodeTable &Code) {
   const uint32_t FirstWord = Code.low() % TimingLineBytes / 4;
   for (InstructionCache &C : Codes)
     C.begin(Code.low(), (FirstWord + Code.count()) * 4 / TimingLineBytes + 1);
-  for (CoreClock &C : Cores)
-    C.begin(Ops, FirstWord, Begun);
   for (RasterClock &R : Rasters)
     R.begin(Begun);
   for (PixelClock &U : Pixels)
     U.begin(Begun);
+  const uint64_t LaunchedAt = launch();
+  for (CoreClock &C : Cores)
+    C.begin(Ops, FirstWord, Begun, LaunchedAt);
   Horizon = 0;
   Ended.assign(Cores.size(), false);
-  Turns.assign(Cores.size() + Rasters.size() + Pixels.size(), Turn());
+  Turns.assign(placeOfHost() + (Host ? 1 : 0), Turn());
+}
+
+uint64_t Clock::copies(const HostCopy &Copy, CommandOrder Order) {
+  return Host ? Host->sendCopy(Copy, std::move(Order)) : 0;
+}
+
+/// All but cores, which have no run, go on until \p IsDone. What is known of
+/// rasterizers' work is all that there is.
+template <typename Function> void Clock::goOnWithoutCores(Function IsDone) {
+  BetweenRuns = true;
+  Turns.assign(placeOfHost() + 1, Turn());
+  Ended.assign(Cores.size(), true);
+  lastWork();
+  for (unsigned N = placeOfRaster(0); N != Turns.size(); ++N)
+    update(N);
+  for (unsigned Steps = 1; !IsDone() && step(); ++Steps)
+    if (Steps % LongestStretch == 0 && Budget.isOver())
+      break;
+  BetweenRuns = false;
+}
+
+/// When the run's launch starts the cores.
+uint64_t Clock::launch() {
+  if (!Host)
+    return Begun;
+  Host->begin(Begun);
+  if (!LaunchOrder)
+    LaunchOrder = {.After = {Host->last()}, .HostAfter = {}};
+  Launched = Host->sendLaunch(*std::exchange(LaunchOrder, std::nullopt));
+  Horizon = Turn::Never;
+  goOnWithoutCores([this] { return Host->launchAt(Launched).has_value(); });
+  // It is not known only if the time is over.
+  const uint64_t At = std::max(Begun, Host->launchAt(Launched).value_or(Begun));
+  Horizon = At;
+  goOnWithoutCores([] { return false; });
+  for (RasterClock &R : Rasters)
+    R.moreWork(At);
+  for (PixelClock &U : Pixels)
+    U.moreWork();
+  return At;
+}
+
+void Clock::settle() {
+  if (!Host)
+    return;
+  for (RasterClock &R : Rasters)
+    R.begin(Now);
+  for (PixelClock &U : Pixels)
+    U.begin(Now);
+  Host->begin(Now);
+  Horizon = Turn::Never;
+  goOnWithoutCores([this] { return Host->isIdle(); });
+  Now = std::max(Now, Host->present());
+  Horizon = Now;
+  goOnWithoutCores([] { return false; });
+  Memory.idleUntil(Now);
+  for (RasterClock &R : Rasters)
+    R.end(Now);
+  for (PixelClock &U : Pixels)
+    U.end(Now);
+  Host->end(Now);
 }
 
 void Clock::setEnded(unsigned Core, uint32_t Warps) {
@@ -156,16 +234,20 @@ void Clock::take() {
   WorthTaking = false;
 }
 
+void Clock::lastWork() {
+  for (RasterClock &R : Rasters)
+    R.lastWork();
+  for (PixelClock &U : Pixels)
+    U.lastWork();
+}
+
 std::optional<TimeReport> Clock::end() {
   if (isWorthTaking())
     take();
   publish();
   for (unsigned N = 0; N != Cores.size(); ++N)
     setEnded(N, static_cast<uint32_t>((uint64_t{1} << Shape.WarpsPerCore) - 1));
-  for (RasterClock &R : Rasters)
-    R.lastWork();
-  for (PixelClock &U : Pixels)
-    U.lastWork();
+  lastWork();
   if (!takeAll()) {
     giveUp();
     return std::nullopt;
@@ -195,9 +277,15 @@ std::optional<TimeReport> Clock::end() {
     U.end(End);
     R.PixelUnits.push_back(U.time());
   }
+  if (Host) {
+    Host->end(End);
+    Host->launchEnded(Launched, End);
+    R.CommandProcessors.push_back(Host->processor());
+    R.DmaEngines = Host->engines();
+  }
   if (Watch)
     Watch->tell([End](TimeObserver &O) { O.timeEnds(End); });
-  Memory.report(R);
+  Memory.report(R, End);
   collectActivities(R);
   Now = End;
   return R;
@@ -206,6 +294,8 @@ std::optional<TimeReport> Clock::end() {
 /// What is left of the run is dropped; memory answers what it was asked.
 void Clock::giveUp() {
   reset();
+  for (CoreClock &C : Cores)
+    C.drop();
   while (Memory.nextEvent() != Turn::Never)
     advanceMemory(Memory.nextEvent());
   Now = Memory.endRun(coresQuietAt());
@@ -215,6 +305,8 @@ void Clock::giveUp() {
     C.end(Now);
   for (PixelClock &U : Pixels)
     U.end(Now);
+  if (Host)
+    Host->reset(Now);
   if (Watch)
     Watch->tell([this](TimeObserver &O) { O.timeEnds(Now); });
 }
@@ -224,6 +316,8 @@ void Clock::reset() {
     R.reset();
   for (PixelClock &U : Pixels)
     U.reset();
+  if (Host)
+    Host->reset(Now);
 }
 
 uint64_t Clock::coresQuietAt() const {
@@ -235,6 +329,8 @@ uint64_t Clock::coresQuietAt() const {
 
 /// Whether no core will do anything more in this run.
 bool Clock::coresAreDone() const {
+  if (BetweenRuns)
+    return true;
   for (size_t N = 0; N != Cores.size(); ++N)
     if (!Ended[N] || !Cores[N].isIdle())
       return false;
@@ -243,6 +339,10 @@ bool Clock::coresAreDone() const {
 
 void Clock::update(unsigned Who) {
   if (Who >= placeOfRaster(0)) {
+    if (Who == placeOfHost()) {
+      Turns[Who] = Host->turn();
+      return;
+    }
     if (Who < placeOfPixels(0))
       Rasters[Who - placeOfRaster(0)].refresh();
     Turns[Who] = Who < placeOfPixels(0) ? Rasters[Who - placeOfRaster(0)].turn()
@@ -253,7 +353,8 @@ void Clock::update(unsigned Who) {
   if (C.state() == CoreClock::State::Starved)
     C.advance();
   const Turn Next = C.turn();
-  Turns[Who] = Next.IsKnown || !Ended[Who] ? Next : Turn();
+  Turns[Who] =
+      std::min(Next.IsKnown || !Ended[Who] ? Next : Turn(), C.frontTurn());
 }
 
 /// The last of those that a barrier counts lets all go on.
@@ -364,13 +465,18 @@ bool Clock::step() {
   const auto Who = static_cast<unsigned>(First - Turns.begin());
   const uint64_t Then = First->At;
   if (Who < Cores.size()) {
-    grant(Who, Then);
+    if (Cores[Who].frontTurn().At == Then)
+      Cores[Who].beginFront(Memory);
+    else
+      grant(Who, Then);
     update(Who);
     return true;
   }
   if (coresAreDone() && Then > std::max(Horizon, coresQuietAt()))
     return false;
-  if (Who < placeOfPixels(0))
+  if (Who == placeOfHost())
+    Host->step(Memory);
+  else if (Who < placeOfPixels(0))
     stepRaster(Who - placeOfRaster(0), Then);
   else
     stepPixels(Who - placeOfPixels(0), Then);
@@ -394,16 +500,21 @@ void Clock::advanceMemory(uint64_t Until) {
   Memory.advance(Until, Answers);
   for (const Answer &A : Answers) {
     const uint32_t Who = A.To.Unit;
+    if (Who & MemorySystem::IsBehindLink) {
+      Host->answer(A);
+      update(placeOfHost());
+      continue;
+    }
     if (Who >= placeOfCode(0)) {
       arriveCode(Who - placeOfCode(0), A);
       continue;
     }
     if (Who >= placeOfPixels(0))
-      Pixels[Who - placeOfPixels(0)].answer(A.To.Tag, A.At);
+      Pixels[Who - placeOfPixels(0)].answer(A);
     else if (Who >= placeOfRaster(0))
-      Rasters[Who - placeOfRaster(0)].answer(A.To.Tag, A.At);
+      Rasters[Who - placeOfRaster(0)].answer(A);
     else
-      Cores[Who].answer(A.To.Tag, A.At);
+      Cores[Who].answer(A);
     update(Who);
   }
 }
@@ -411,9 +522,9 @@ void Clock::advanceMemory(uint64_t Until) {
 /// A line of code comes for those of \p Socket that wait for it.
 void Clock::arriveCode(unsigned Socket, const Answer &A) {
   InstructionCache &Code = Codes[Socket];
-  const InstructionCache::Arrived Line = Code.answer(A.To.Tag, A.At);
+  const InstructionCache::Arrived Line = Code.answer(A);
   for (const auto &[Core, Warp] : Line.Who) {
-    Cores[Core].fetched(Warp, Line.Line, A.At, Code.keeps(Line.Line));
+    Cores[Core].fetched(Warp, Line.Line, A.arrival(), Code.keeps(Line.Line));
     Cores[Core].advance();
     update(Core);
   }

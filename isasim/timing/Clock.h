@@ -6,6 +6,7 @@
 #include "timing/common/TimeObserver.h"
 #include "timing/core/CoreClock.h"
 #include "timing/core/InstructionCache.h"
+#include "timing/host/HostUnits.h"
 #include "timing/raster/PixelClock.h"
 #include "timing/raster/RasterClock.h"
 #include "vorion/isasim/Config.h"
@@ -47,10 +48,22 @@ public:
   bool hasRoomForTail(unsigned Core) const;
   bool hasRoom() const;
 
-  /// \p Observers are told from now on, in this order.
+  /// Notifies \p Observers from now on, in this order.
   void setObservers(std::vector<TimeObserver *> Observers);
 
-  /// A run of \p Code begins.
+  /// \name Commands of the host, on a machine that has units for them
+  /// Otherwise copies are number 0, and launches wait for nothing.
+  /// @{
+  uint64_t copies(const HostCopy &Copy, CommandOrder Order);
+  /// Of the next run; without a call it waits for all commands before it.
+  void orderLaunch(CommandOrder Order) { LaunchOrder = std::move(Order); }
+  /// The number of the last command.
+  uint64_t lastCommand() const { return Host ? Host->last() : 0; }
+  /// Time goes on until all copies have ended: time of no run.
+  void settle();
+  /// @}
+
+  /// A run of \p Code begins: it is launched when its command says so.
   void begin(const CodeTable &Code);
   /// The warps of core \p Core, as bits, that have ended. All cores are parked.
   void setEnded(unsigned Core, uint32_t Warps);
@@ -69,6 +82,9 @@ public:
   void reset();
 
 private:
+  void lastWork();
+  uint64_t launch();
+  template <typename Function> void goOnWithoutCores(Function IsDone);
   bool takeAll();
   bool step();
   bool stepMemory(Turn Next);
@@ -88,6 +104,10 @@ private:
   }
   unsigned placeOfPixels(unsigned Cluster) const {
     return static_cast<unsigned>(Cores.size() + Rasters.size()) + Cluster;
+  }
+  /// Of the command processor and the DMA engines, the last of Turns.
+  unsigned placeOfHost() const {
+    return placeOfPixels(static_cast<unsigned>(Pixels.size()));
   }
   /// By which memory knows instruction caches, which have no turns.
   unsigned placeOfCode(unsigned Socket) const {
@@ -110,9 +130,12 @@ private:
   std::vector<InstructionCache> Codes; ///< by socket
   std::vector<RasterClock> Rasters;
   std::vector<PixelClock> Pixels; ///< by cluster
+  std::optional<HostUnits> Host;
+  std::optional<CommandOrder> LaunchOrder;
+  uint64_t Launched = 0; ///< command of the run
   std::vector<OpInfo> Ops;
   std::vector<bool> Ended; ///< by core: all its warps have
-  std::vector<Turn> Turns; ///< of cores, rasterizers, pixel units
+  std::vector<Turn> Turns; ///< of cores, rasterizers, pixel units, Host
   std::vector<Answer> Answers;
   struct Arrived {
     std::vector<std::pair<unsigned, unsigned>> Warps; ///< core and warp
@@ -125,6 +148,7 @@ private:
   uint64_t Horizon = 0;
   uint64_t OutOfOrder = 0;
   bool WorthTaking = false;
+  bool BetweenRuns = false; ///< there is nothing for cores to do
   std::optional<TimeWatch> Watch;
 };
 

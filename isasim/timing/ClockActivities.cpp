@@ -51,8 +51,16 @@ void Clock::collectActivities(TimeReport &R) const {
     L2.Writebacks += T.Writebacks;
   }
   if (L2Link::exists(Timing)) {
-    Add("link", "bytes to the L2", R.LinkBytes.ToL2);
-    Add("link", "bytes from the L2", R.LinkBytes.FromL2);
+    Add("link", "bytes to the L2", R.Link.BytesToL2);
+    Add("link", "bytes from the L2", R.Link.BytesFromL2);
+  }
+  if (Host) {
+    uint64_t DmaLines = 0;
+    for (const DmaTime &T : R.DmaEngines)
+      DmaLines += T.Lines;
+    Add("command processor", "commands", Host->processor().Commands);
+    Add("dma", "lines", DmaLines);
+    Add("host link", "bytes", Host->linkBytes());
   }
   Add("l2", "line reads", L2.Reads);
   Add("l2", "line writes", L2.Writes);
@@ -80,12 +88,14 @@ void Clock::collectRasters(TimeReport &R) const {
   }
   Add("rasterizer", "commands", Raster.Commands);
   Add("rasterizer", "gaussians fetched", Raster.Gaussians);
-  Add("rasterizer", "pixels evaluated", Raster.LaneSlots);
   LaneWork Work;
   for (const RasterClock &C : Rasters)
     Work += C.laneWork();
+  Add("rasterizer", "pixels evaluated", Raster.LaneSlots - Work.allCovered());
   Add("rasterizer", "pixels blended", Work.allBlended());
   Add("rasterizer", "pixels loaded or stored", Work.Moved);
+  if (Work.RangeWords != 0)
+    Add("rasterizer", "words of ranges loaded", Work.RangeWords);
   if (Timing.Raster.SkipBlocks != 0)
     Add("rasterizer", "rows of blocks tested", Work.BlockRows);
   for (uint8_t N = 0; N != raster::ExpUnitCount; ++N)
@@ -93,6 +103,11 @@ void Clock::collectRasters(TimeReport &R) const {
   for (uint8_t N = 0; N != raster::BlendUnitCount; ++N)
     Add("rasterizer blend", blendUnitName(N), Work.Blended[N]);
   Add("rasterizer gradients", "pixels", Work.Gradients);
+  if (Work.allCovered() != 0) {
+    for (size_t N = 1; N != Work.Covered.size(); ++N)
+      Add("rasterizer front end", raster::FrontEnds[N].Name, Work.Covered[N]);
+    Add("rasterizer front end", "pixels in front", Work.Passed);
+  }
   PixelTime Tails;
   for (const PixelTime &T : R.PixelUnits) {
     Tails.Tails += T.Tails;
@@ -126,6 +141,12 @@ void Clock::collectTimes(TimeReport &R) const {
     Add("maps of closed blocks", Each(Shape.sockets()));
   if (L2Link::exists(Timing))
     Add("links", Each(1));
+  if (Host) {
+    Add("command processors", Each(1));
+    Add("DMA engines", Each(Timing.Host.DmaEngines));
+    Add("lines of DMA engines",
+        Each(uint64_t{Timing.Host.DmaEngines} * Timing.Host.DmaRequests));
+  }
   Add("rasterizer lanes",
       Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
   Add("pixel unit lanes", Each(uint64_t{Shape.Clusters} * Timing.Pixel.Lanes));

@@ -139,6 +139,28 @@ TEST_F(ClockTest, AFenceWaitsForWhatIsInFlight) {
   EXPECT_GT(of(run(Body), CoreCycle::Fence), Settings.Timing.L2.HitCycles);
 }
 
+// Nothing else gets longer by a link than the waits for it.
+TEST_F(ClockTest, WaitingForTheLinkIsAReason) {
+  const Words Warm = {lw(10, 0, 7), encode(Op::RV_FENCE, {})};
+  const Words Chain = repeat(20, {lw(10, 0, 7), addi(10, 10, 1)});
+  const Words Fences =
+      repeat(20, {sw(10, 0, 7), lw(11, 0, 7), encode(Op::RV_FENCE, {})});
+  const Words Queue = repeat(40, {lw(10, 0, 7)});
+  for (const Words &Body : {Chain, Fences, Queue}) {
+    Settings.Timing.Link = {};
+    const TimeReport None = run(Warm + Body);
+    EXPECT_EQ(of(None, CoreCycle::Link), 0U);
+    Settings.Timing.Link = {.ToL2Ns = 100, .FromL2Ns = 40};
+    const TimeReport R = run(Warm + Body);
+    const uint64_t Link = of(R, CoreCycle::Link);
+    // Behind the last instruction it is the run that waits.
+    const uint64_t Longer = R.Cycles - of(R, CoreCycle::Ended) -
+                            (None.Cycles - of(None, CoreCycle::Ended));
+    EXPECT_NEAR(static_cast<double>(Longer), static_cast<double>(Link), 1);
+    EXPECT_GT(Longer, 20 * 140 * R.ClockMhz / 1000);
+  }
+}
+
 TEST_F(ClockTest, RefreshesOfDramThatNobodyAsksAreCounted) {
   // 102,400 rounds that access no memory.
   const TimeReport R = run({lui(10, 0x19000), addi(10, 10, -1),

@@ -67,6 +67,11 @@ std::string timingMarkdown() {
   for (uint8_t Blend = 1; Blend != raster::BlendUnitCount; ++Blend)
     Others({.Blend = Blend});
   Text += fmt::format(
+      "\nFront ends of opaque primitives, in place of all but the gather\n\n{}",
+      Head);
+  for (uint8_t N = 1; N != std::size(raster::FrontEnds); ++N)
+    Row(datapathUnits({.FrontEnd = N}).front());
+  Text += fmt::format(
       "\nUnits of a pair of lanes in the backward mode, beyond two lanes\n\n{}",
       Head);
   for (size_t R = 0; R != std::size(raster::ReciprocalUnits); ++R)

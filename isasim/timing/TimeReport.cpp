@@ -96,16 +96,21 @@ std::string toJson(const TimeReport &R) {
          {"machine_changes", R.MachineChanges},
          {"dram_table",
           {{"file", R.DramTableFile}, {"fnv1a64", R.DramTableHash}}}};
-  J["host"] = {{"launch_ns", R.Host.LaunchNs},
-               {"copy_ns", R.Host.CopyNs},
-               {"copy_mbps", R.Host.CopyMbps},
+  // With units these are part of the cycles.
+  const bool IsBeside = R.DmaEngines.empty();
+  J["host"] = {{"launch_ns", IsBeside ? R.Host.LaunchNs : 0},
+               {"copy_ns", IsBeside ? R.Host.CopyNs : 0},
+               {"copy_mbps", IsBeside ? R.Host.CopyMbps : 0},
                {"dram_burst_bytes", R.DramBurstBytes}};
   J["lane_areas"] = ownJson<Json>(areasJson());
   J["cores"] = json(R.Cores);
   J["rasterizers"] = json(R.Rasters);
   J["pixel_units"] = json(R.PixelUnits);
+  J["command_processors"] = json(R.CommandProcessors);
+  J["dma_engines"] = json(R.DmaEngines);
   J["l2"] = json(R.L2);
   J["llc"] = json(R.Llc);
+  J["link"] = json(R.Link);
   J["dram"] = json(R.Dram);
   Json Activities = Json::array();
   for (const Activity &A : R.Activities)
@@ -126,12 +131,25 @@ std::string toText(const TimeReport &R) {
   Text += fmt::format("machine      {}\n", R.Machine);
   if (R.Cycles == 0)
     return Text;
+  const auto Percent = [&R](uint64_t Part) {
+    return 100.0 * static_cast<double>(Part) / static_cast<double>(R.Cycles);
+  };
   Text += shares("cores", R.Cores, R.Cycles);
   Text += shares("rasterizers", R.Rasters, R.Cycles);
   Text += shares("pixel units", R.PixelUnits, R.Cycles);
+  if (!R.DmaEngines.empty()) {
+    Text += shares("commands", R.CommandProcessors, R.Cycles);
+    Text += shares("dma engines", R.DmaEngines, R.Cycles);
+  }
   for (size_t N = 0; N != R.L2.size(); ++N)
     Text += line(R.L2.size() == 1 ? "l2" : fmt::format("l2 {}", N), R.L2[N]);
   Text += line("llc", R.Llc);
+  if (R.Link.BytesToL2 || R.Link.BytesFromL2)
+    Text +=
+        fmt::format("{:<12} {} bytes to the L2, busy {:.1f} %, and {} back, "
+                    "busy {:.1f} %\n",
+                    "link", R.Link.BytesToL2, Percent(R.Link.BusyToL2),
+                    R.Link.BytesFromL2, Percent(R.Link.BusyFromL2));
   const uint64_t Rows = R.Dram.RowHits + R.Dram.RowMisses + R.Dram.RowConflicts;
   Text += fmt::format(
       "{:<12} {} read and {} write bursts, row hits of {:.1f} % of lines\n",

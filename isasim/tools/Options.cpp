@@ -1,5 +1,3 @@
-/// vorion-sim --help on one screen: CLI11's usual page names exclusions and
-/// checks behind every option, which no screen is wide enough for.
 #include "tools/Options.h"
 #include "vorion/support/ClockText.h"
 #include "vorion/support/CommandLine.h"
@@ -8,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,29 +13,6 @@
 
 namespace vorion::isasim {
 
-class HelpFormatter : public CLI::Formatter {
-public:
-  HelpFormatter() { column_width(32); }
-
-  /// The value's name alone.
-  std::string make_option_opts(const CLI::Option *Opt) const override {
-    const std::string Type = Opt->get_type_name();
-    return Type.empty() || Type.starts_with('[') ? Type : " " + Type;
-  }
-  /// One empty line between groups, not two.
-  std::string make_group(std::string Group, bool IsPositional,
-                         std::vector<const CLI::Option *> Opts) const override {
-    return CLI::Formatter::make_group(std::move(Group), IsPositional,
-                                      std::move(Opts))
-        .substr(1);
-  }
-  /// Without the value that stands for none, {-}.
-  std::string make_option_name(const CLI::Option *Opt,
-                               bool IsPositional) const override {
-    const std::string Name = Opt->get_name(IsPositional, true);
-    return Name.substr(0, Name.find('{'));
-  }
-};
 namespace {
 
 /// An option of SessionOptions.def. One that may stand alone takes a value as
@@ -56,63 +30,48 @@ void declareWatch(CLI::App &App, const SessionOption &S, std::string &To) {
     writesFiles(Added);
   if (!S.Names.empty())
     takesSomeOf(Added, {S.Names.begin(), S.Names.end()});
-  Added->group("Observing a run (docs/debugging.md)");
 }
-
-/// What \p Check accepts, without its name in --help.
-CLI::Validator quietly(CLI::Validator Check) { return Check.description(""); }
 
 void declareLaunch(CLI::App &App, Options &O) {
   App.add_option("--kernel", O.Kernel,
                  "the kernel to run, if the program has several")
-      ->type_name("NAME")
-      ->group("Running a kernel");
+      ->type_name("NAME");
   App.add_option("--global", O.Global, "number of work-items")
-      ->type_name("X[,Y[,Z]]")
-      ->group("Running a kernel");
+      ->type_name("X[,Y[,Z]]");
   App.add_option("--local", O.Local,
                  "work-group size (default: the kernel's own, or at most 64)")
-      ->type_name("X[,Y[,Z]]")
-      ->group("Running a kernel");
+      ->type_name("X[,Y[,Z]]");
   App.add_option("--arg", O.Args,
                  "the next argument: i32:N u32:N i64:N u64:N f32:X bytes:HEX\n"
                  "buf:SIZE buf@FILE out:SIZE@FILE inout:FILE[@FILE] local:SIZE")
       ->type_name("ARG")
-      ->group("Running a kernel")
       ->allow_extra_args(false);
   takesFile(App.add_option("--args", O.ArgsFile,
                            "the options of this group as JSON: {\"kernel\", "
                            "\"global\", \"local\", "
                            "\"args\": [\"i32:5\", ...]}"))
-      ->group("Running a kernel")
       ->excludes("--kernel")
       ->excludes("--global")
       ->excludes("--local")
       ->excludes("--arg");
   App.add_flag("--list-kernels", O.ListKernels,
-               "print the program's kernels and exit")
-      ->group("Running a kernel");
+               "print the program's kernels and exit");
 }
 
 void declareTestPrograms(CLI::App &App, Options &O) {
-  App.add_flag("--one-hart", O.OneHart, "one core of one warp of one lane")
-      ->group("Test programs (docs/test-programs.md)");
-  writesFile(
-      App.add_option(
-          "--signature", O.SignatureFile,
-          "write the memory words from begin_signature to end_signature"))
-      ->group("Test programs (docs/test-programs.md)");
+  App.add_flag("--one-hart", O.OneHart, "one core of one warp of one lane");
+  writesFile(App.add_option(
+      "--signature", O.SignatureFile,
+      "write the memory words from begin_signature to end_signature"));
   App.add_option("--signature-granularity", O.SignatureGranularity,
                  "bytes per line of the signature (default: 4)")
       ->type_name("N")
-      ->group("Test programs (docs/test-programs.md)")
       ->check(isOneOf({"1", "2", "4", "8", "16"}));
 }
 
 } // namespace
 
 void declareOptions(CLI::App &App, Options &O) {
-  App.formatter(std::make_shared<HelpFormatter>());
   App.set_help_flag("-h,--help", "print this help and exit");
   App.set_version_flag(
       "--version", [&App] { return versionLine(App.get_name()); },
@@ -121,29 +80,32 @@ void declareOptions(CLI::App &App, Options &O) {
                            "RISC-V executable, Vortex's .vxbin, or a saved "
                            "region"))
       ->type_name("");
+  HelpGroup Group(App, "Machine");
   App.add_option("--set", O.Set,
                  "override configuration keys, e.g. queue_depth=8,cores=16 "
                  "(default: VORION_SET)")
       ->type_name("KEY=VALUE,...")
       ->allow_extra_args(false);
-  App.add_flag("--print-config-schema", O.PrintSchema,
-               "print the JSON schema of configurations and exit");
   App.add_option(
       "--config", O.ConfigText,
       "the machine: a name, or a JSON configuration (default: VORION_CONFIG)");
   takesFile(App.get_option("--config"), {".json"})->type_name("NAME|FILE");
-  App.add_flag("--print-default-config", O.PrintDefaultConfig,
-               "print the default configuration and exit");
-  App.add_flag("--print-timing-parameters", O.PrintTiming,
-               "print the parameters of the timing model and the short names "
-               "of --set, and exit");
+  App.add_option("--max-instructions", O.MaxInstructions,
+                 "stop after N warp instructions (0: no limit)")
+      ->type_name("N")
+      ->check(isBetween<uint64_t>(0, 1'000'000'000'000'000'000));
+  App.add_option("--threads", O.Threads,
+                 "host threads (default and maximum: one per processor; "
+                 "results do not depend on it)")
+      ->type_name("N");
+  Group.next("Time and energy");
   App.add_flag("--time", O.Time,
                "report the modelled execution time (docs/model.md)");
   App.add_option(
          "--clock", O.ClockMhz,
          "clock frequency of the timing model (default: the machine's, 530)")
       ->type_name("MHZ")
-      ->check(quietly(isBetween(1U, MostClockMhz)));
+      ->check(isBetween(1U, MostClockMhz));
   App.add_flag(
       "--energy", O.Energy,
       "report the modelled execution time and energy (docs/energy.md)");
@@ -155,21 +117,24 @@ void declareOptions(CLI::App &App, Options &O) {
                  "supply voltage (implies --energy; default: what the clock "
                  "frequency needs)")
       ->type_name("V");
+  Group.next("Printed instead of a run");
+  App.add_flag("--print-default-config", O.PrintDefaultConfig,
+               "print the default configuration and exit");
+  App.add_flag("--print-config-schema", O.PrintSchema,
+               "print the JSON schema of configurations and exit");
+  App.add_flag("--print-timing-parameters", O.PrintTiming,
+               "print the parameters of the timing model and the short names "
+               "of --set, and exit");
   App.add_flag("--print-technology", O.PrintTechnology,
                "print the default technology file and exit");
   App.add_flag(
       "--print-energy-parameters", O.PrintEnergy,
       "print the parameters of the energy model with their sources, and exit");
-  App.add_option("--max-instructions", O.MaxInstructions,
-                 "stop after N warp instructions (0: no limit)")
-      ->type_name("N")
-      ->check(quietly(isBetween<uint64_t>(0, 1'000'000'000'000'000'000)));
-  App.add_option("--threads", O.Threads,
-                 "host threads (default and maximum: one per processor; "
-                 "results do not depend on it)")
-      ->type_name("N");
+  Group.next("Running a kernel");
   declareLaunch(App, O);
+  Group.next("Test programs (docs/test-programs.md)");
   declareTestPrograms(App, O);
+  Group.next("Observing a run (docs/debugging.md)");
   for (const SessionOption &S : sessionOptions())
     declareWatch(App, S, O.Watch.*S.Text);
   App.footer(std::string(ExitCodeHelp) +

@@ -58,6 +58,8 @@ void Emitter::allocate() {
     const InsnInfo &Info = InsnTable[static_cast<unsigned>(G.Opcode)];
     if (Info.Rs1 != File::None)
       Uses[numberOf(G.I->Rs1)] += Weight;
+    if (G.IsInStacks)
+      Uses[numberOf(StackPointer)] += Weight;
     if (Info.Rs2 != File::None)
       Uses[numberOf(G.I->Rs2)] += Weight;
     if (Info.Rs3 != File::None)

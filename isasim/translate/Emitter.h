@@ -165,6 +165,18 @@ private:
   void loadFromStack(const GuestInsn &G, Xbyak::Label &Wrong);
   void storeToStack(const GuestInsn &G, Xbyak::Label &Wrong);
   void locateOnStack(const Xbyak::Zmm &Addresses, Xbyak::Label &Wrong);
+  void loadFromOwnStacks(const GuestInsn &G, const Xbyak::Zmm &Addresses,
+                         int Bytes, bool IsSigned, const Xbyak::Zmm &Distances,
+                         const Xbyak::Zmm &Spread, Xbyak::Label &Elsewhere);
+  void storeToOwnStacks(const Xbyak::Zmm &Addresses, int Bytes,
+                        const Xbyak::Zmm &Values, const Xbyak::Zmm &Distances,
+                        const Xbyak::Zmm &Spread, Xbyak::Label &Elsewhere);
+  void locateOwnLine(const Xbyak::Zmm &Addresses, int Bytes,
+                     const Xbyak::Zmm &Distances, const Xbyak::Zmm &Spread,
+                     Xbyak::Label &Apart, Xbyak::Label &Elsewhere);
+  void locateOwnWords(int Bytes, const Xbyak::Zmm &Distances,
+                      const Xbyak::Zmm &Offsets, Xbyak::Label &Elsewhere);
+  void firstBits(const Xbyak::Zmm &Shifts, const Xbyak::Zmm &Depths);
   void followStackPointer(const GuestInsn &G);
   void atStackLine(const GuestInsn &G, Xbyak::Label &Wrong,
                    const std::function<void(const Xbyak::RegExp &)> &Access);

@@ -1,7 +1,8 @@
 // Loads and stores. Neighbouring lanes at neighbouring places, all lanes at one
-// place (first for loads where Guess.cpp says so), and lanes anywhere in one
-// region, in this order; Stack.cpp has those by the stack pointer. The rest,
-// and all that is wrong, is the interpreter's.
+// place (first for loads where Guess.cpp says so), lanes anywhere in one
+// region, and the lanes' own stacks (first where Guess.cpp says so), in this
+// order; Stack.cpp has those of stacks. The rest, and all that is wrong, is the
+// interpreter's.
 
 #include "translate/Places.h"
 #include "translate/Value.h"
@@ -206,11 +207,17 @@ void Emitter::load(const GuestInsn &G) {
   ++Pending.Loads;
   if (isOnStack(G))
     return loadFromStack(G, Wrong);
-  if (I->Rs1 == StackPointer)
+  if (I->Rs1 == StackPointer && !KeepsStackLine)
     return jmp(Wrong);
   const Zmm Addresses = addressesOf(I);
   const Zmm Bases = scratch(), Spread = scratch();
+  if (I->Rs1 == StackPointer)
+    return loadFromOwnStacks(G, Addresses, Bytes, IsSigned, Bases, Spread,
+                             Wrong);
+  // One of the ways below is taken, so they share what else they need.
+  const int Taken = Scratches;
   const auto FromOne = [=, this, &Wrong](Label &Differ) {
+    Scratches = Taken;
     spreadFirstAddress(I, 0, Spread, Addresses);
     jumpIfDiffer(Addresses, Spread, isFull(), Differ);
     locate(Bytes, 1, false, Wrong);
@@ -223,6 +230,7 @@ void Emitter::load(const GuestInsn &G) {
     });
   };
   const auto FromNeighbours = [=, this, &Wrong](Label &Apart) {
+    Scratches = Taken;
     locateNeighbours(I, Addresses, Bytes, false, Bases, Spread, Apart, Wrong);
     result(I->Rd, [&](const Zmm &To) {
       if (Bytes == 4)
@@ -233,9 +241,10 @@ void Emitter::load(const GuestInsn &G) {
         IsSigned ? vpmovsxbd(To, ptr[rcx]) : vpmovzxbd(To, ptr[rcx]);
     });
   };
-  const auto FromEach = [=, this, &Wrong] {
+  const auto FromEach = [=, this](Label &Elsewhere) {
+    Scratches = Taken;
     spreadFirstAddress(I, 0, Spread, Addresses);
-    locateEach(Addresses, Bytes, false, Bases, Wrong);
+    locateEach(Addresses, Bytes, false, Bases, Elsewhere);
     if (Bytes == 4)
       return result(I->Rd,
                     [&](const Zmm &To) { gather(Zmm(To.getIdx()), Bases); });
@@ -246,15 +255,30 @@ void Emitter::load(const GuestInsn &G) {
     result(I->Rd, [&](const Zmm &To) { vmovdqa32(To, Spread); });
   };
   Label Other, Done;
-  G.HasOneAddress ? FromOne(Other) : FromNeighbours(Other);
+  const bool StacksFirst = G.IsInStacks && KeepsStackLine;
+  if (StacksFirst)
+    loadFromOwnStacks(G, Addresses, Bytes, IsSigned, Bases, Spread, Other);
+  else
+    G.HasOneAddress ? FromOne(Other) : FromNeighbours(Other);
   L(Done);
-  outOfLine([=, this, HasOneAddress = G.HasOneAddress]() mutable {
-    Label Scattered;
+  outOfLine([=, this, &G, &Wrong]() mutable {
+    Label Apart, Scattered, Elsewhere;
     L(Other);
-    HasOneAddress ? FromNeighbours(Scattered) : FromOne(Scattered);
+    if (StacksFirst) {
+      G.HasOneAddress ? FromOne(Apart) : FromNeighbours(Apart);
+      jmp(Done);
+      L(Apart);
+    }
+    G.HasOneAddress ? FromNeighbours(Scattered) : FromOne(Scattered);
     jmp(Done);
     L(Scattered);
-    FromEach();
+    FromEach(Elsewhere);
+    jmp(Done);
+    L(Elsewhere);
+    if (StacksFirst || !KeepsStackLine)
+      return jmp(Wrong);
+    Scratches = Taken;
+    loadFromOwnStacks(G, Addresses, Bytes, IsSigned, Bases, Spread, Wrong);
     jmp(Done);
   });
 }
@@ -266,29 +290,47 @@ void Emitter::store(const GuestInsn &G) {
   ++Pending.Stores;
   if (isOnStack(G))
     return storeToStack(G, Wrong);
-  if (I->Rs1 == StackPointer)
+  if (I->Rs1 == StackPointer && !KeepsStackLine)
     return jmp(Wrong);
   const Zmm Addresses = addressesOf(I);
   const Zmm Values = inZmm(guest(I->Rs2));
   const Zmm Bases = scratch(), Spread = scratch();
-  Label Apart, Done;
-  locateNeighbours(I, Addresses, Bytes, true, Bases, Spread, Apart, Wrong);
-  if (Bytes == 4)
-    vmovdqu32(isFull() ? ptr[rcx] : ptr[rcx] | k1, Values);
+  if (I->Rs1 == StackPointer)
+    return storeToOwnStacks(Addresses, Bytes, Values, Bases, Spread, Wrong);
+  const auto ToNeighbours = [=, this, &Wrong](Label &Apart) {
+    locateNeighbours(I, Addresses, Bytes, true, Bases, Spread, Apart, Wrong);
+    if (Bytes == 4)
+      vmovdqu32(isFull() ? ptr[rcx] : ptr[rcx] | k1, Values);
+    else
+      storeNarrow(Bytes, Values, isFull());
+  };
+  Label Other, Done;
+  const bool StacksFirst = G.IsInStacks && KeepsStackLine;
+  if (StacksFirst)
+    storeToOwnStacks(Addresses, Bytes, Values, Bases, Spread, Other);
   else
-    storeNarrow(Bytes, Values, isFull());
+    ToNeighbours(Other);
   L(Done);
   outOfLine([=, this, &Wrong]() mutable {
-    L(Apart);
-    // The host has no such stores of less than words.
-    if (Bytes != 4) {
-      jmp(Wrong);
-      return;
+    Label Apart, Elsewhere;
+    L(Other);
+    if (StacksFirst) {
+      ToNeighbours(Apart);
+      jmp(Done);
+      L(Apart);
     }
-    spreadFirstAddress(I, 0, Spread, Addresses);
-    locateEach(Addresses, Bytes, true, Bases, Wrong);
-    // In the order of the lanes, as the guest's.
-    scatter(Bases, Values, isFull());
+    // The host has no such stores of less than words.
+    if (Bytes == 4) {
+      spreadFirstAddress(I, 0, Spread, Addresses);
+      locateEach(Addresses, Bytes, true, Bases, Elsewhere);
+      // In the order of the lanes, as the guest's.
+      scatter(Bases, Values, isFull());
+      jmp(Done);
+      L(Elsewhere);
+    }
+    if (StacksFirst || !KeepsStackLine)
+      return jmp(Wrong);
+    storeToOwnStacks(Addresses, Bytes, Values, Bases, Spread, Wrong);
     jmp(Done);
   });
 }

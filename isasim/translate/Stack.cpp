@@ -1,10 +1,15 @@
-// Words at the stack pointer. The lanes' stacks are interleaved on the host
+// The lanes' own stacks. They are interleaved on the host
 // (MemoryView::stackOffset), so the same place of all 16 is a line there. Where
 // the stack pointers of all lanes name such a place, active or not, r12 has its
-// line until the stack pointer is written, and the lines around it are as far
-// away from there as the immediates say. All of them are the core's own, so
-// what they have of lanes that are not active may be written again. Elsewhere
-// each access looks for the line of the active lanes.
+// line until the stack pointer is written. All lines of these stacks are the
+// core's own, so what they have of lanes that are not active may be written
+// again.
+//
+// Words at the stack pointer are as far away from r12 as the immediates say.
+// Without r12 each access looks for the line of the active lanes. Other
+// accesses, as those of arrays, go by the distance of their addresses from the
+// stack pointer: a line where all active lanes have the same distance, else a
+// word of each lane.
 
 #include "translate/Places.h"
 #include "translate/Value.h"
@@ -39,12 +44,14 @@ bool Emitter::isOnStack(const GuestInsn &G) const {
 }
 
 void Emitter::findStackUses() {
-  for (const GuestInsn &G : Region)
+  for (const GuestInsn &G : Region) {
+    KeepsStackLine |= (G.Is == Kind::Load || G.Is == Kind::Store) &&
+                      (G.IsInStacks || G.I->Rs1 == StackPointer);
     if (isOnStack(G)) {
-      KeepsStackLine = true;
       LeastOnStack = std::min(LeastOnStack, G.I->Imm);
       GreatestOnStack = std::max(GreatestOnStack, G.I->Imm);
     }
+  }
   // Others that write the stack pointer may go elsewhere from there.
   for (const GuestInsn &G : Region)
     if (G.I->Rd == StackPointer && G.Is != Kind::Integer &&
@@ -101,6 +108,166 @@ void Emitter::storeToStack(const GuestInsn &G, Label &Wrong) {
     vmovdqu32(Line, ptr[At]);
     vmovdqa32(Line | k1, Values);
     vmovdqu32(ptr[At], Line);
+  });
+}
+
+/// rcx becomes the line that \p Bytes bytes at \p Addresses of active lanes lie
+/// in, and edx their first bit in its words. Goes to \p Apart with \p Distances
+/// from the stack pointer if these differ, and to \p Elsewhere if this is not
+/// the lanes' own stacks. Overwrites \p Spread.
+void Emitter::locateOwnLine(const Zmm &Addresses, int Bytes,
+                            const Zmm &Distances, const Zmm &Spread,
+                            Label &Apart, Label &Elsewhere) {
+  test(r12, r12);
+  jz(Elsewhere);
+  if (const int Pointer = zmmOf(StackPointer); Pointer >= 0)
+    vpsubd(Distances, Addresses, Zmm(Pointer));
+  else
+    vpsubd(Distances, Addresses, ptr[rdi + StackPointer]);
+  jumpIfApart(Distances, Spread, Apart);
+  if (Bytes > 1) {
+    test(al, Bytes - 1);
+    jnz(Elsewhere);
+  }
+  mov(edx, dword[rdi + VORION_PLACE(StackPointerDepth)]);
+  sub(edx, eax);
+  cmp(edx, dword[rdi + VORION_PLACE(StackBytes)]);
+  jae(Elsewhere);
+  // The stack pointer is a multiple of words.
+  movsxd(rcx, eax);
+  if (Bytes < WordBytes) {
+    mov(edx, eax);
+    and_(edx, WordBytes - 1);
+    shl(edx, 3);
+    and_(rcx, -WordBytes);
+  }
+  shl(rcx, 4);
+  static_assert(LineBytes == WordBytes << 4);
+  neg(rcx);
+  add(rcx, r12);
+}
+
+/// For active lanes at different \p Distances: \p Offsets of their words from
+/// rcx, for gather() and scatter(). \p Distances become the bytes from the top
+/// of each stack.
+void Emitter::locateOwnWords(int Bytes, const Zmm &Distances,
+                             const Zmm &Offsets, Label &Elsewhere) {
+  mov(edx, dword[rdi + VORION_PLACE(StackPointerDepth)]);
+  vpbroadcastd(Offsets, edx);
+  vpsubd(Distances, Offsets, Distances);
+  vpcmpud(active(k2), Distances, ptr_b[rdi + VORION_PLACE(StackBytes)],
+          Relation::NotLess);
+  if (Bytes > 1) {
+    vpandnd(Offsets, Distances, constant(static_cast<uint32_t>(Bytes - 1)));
+    vptestmd(active(k3), Offsets, Offsets);
+    kortestw(k2, k3);
+  } else {
+    kortestw(k2, k2);
+  }
+  jnz(Elsewhere);
+  vpsrld(Offsets, Distances, 2);
+  vpslld(Offsets, Offsets, 6);
+  static_assert(LineBytes == 1 << 6);
+  vpaddd(Offsets, Offsets, laneNumbers(WordBytes));
+  // From the line at the top.
+  shr(edx, 2);
+  shl(rdx, 6);
+  mov(rcx, r12);
+  sub(rcx, rdx);
+  isFull() ? setAll(k2) : copy(k2, k1);
+}
+
+/// \p Shifts become the bit offsets, in their words, of bytes that are \p
+/// Depths from the tops of their stacks.
+void Emitter::firstBits(const Zmm &Shifts, const Zmm &Depths) {
+  vpandnd(Shifts, Depths, constant(WordBytes - 1));
+  vpslld(Shifts, Shifts, 3);
+}
+
+/// A load of the lanes' own stacks, or on at \p Elsewhere. Overwrites \p
+/// Distances and \p Spread.
+void Emitter::loadFromOwnStacks(const GuestInsn &G, const Zmm &Addresses,
+                                int Bytes, bool IsSigned, const Zmm &Distances,
+                                const Zmm &Spread, Label &Elsewhere) {
+  const Zmm Words = Bytes < WordBytes ? scratch() : Spread;
+  const int Taken = Scratches;
+  const auto Extend = [=, this] {
+    const auto Shift = static_cast<uint8_t>(32 - 8 * Bytes);
+    vpsrlvd(Words, Words, Distances);
+    vpslld(Words, Words, Shift);
+    IsSigned ? vpsrad(Words, Words, Shift) : vpsrld(Words, Words, Shift);
+    result(G.I->Rd, [&](const Zmm &To) { vmovdqa32(To, Words); });
+  };
+  Label Apart, Done;
+  locateOwnLine(Addresses, Bytes, Distances, Spread, Apart, Elsewhere);
+  if (Bytes == WordBytes) {
+    result(G.I->Rd, [&](const Zmm &To) { vmovdqu32(To, ptr[rcx]); });
+  } else {
+    vmovdqu32(Words, ptr[rcx]);
+    vpbroadcastd(Distances, edx);
+    Extend();
+  }
+  L(Done);
+  outOfLine([=, this]() mutable {
+    Scratches = Taken;
+    L(Apart);
+    locateOwnWords(Bytes, Distances, Spread, Elsewhere);
+    if (Bytes == WordBytes) {
+      result(G.I->Rd, [&](const Zmm &To) { gather(Zmm(To.getIdx()), Spread); });
+    } else {
+      gather(Words, Spread);
+      firstBits(Distances, Distances);
+      Extend();
+    }
+    jmp(Done);
+  });
+}
+
+/// The same for a store.
+void Emitter::storeToOwnStacks(const Zmm &Addresses, int Bytes,
+                               const Zmm &Values, const Zmm &Distances,
+                               const Zmm &Spread, Label &Elsewhere) {
+  const Zmm Bits = Bytes < WordBytes ? scratch() : Spread;
+  // Inserts the low bytes of Values into Words of active lanes, from the bits
+  // Distances on.
+  const auto Insert = [=, this](const Zmm &Words) {
+    vpbroadcastd(Bits, number((1U << 8 * Bytes) - 1));
+    vpsllvd(Bits, Bits, Distances);
+    vpsllvd(Distances, Values, Distances);
+    vpxord(Distances, Distances, Words);
+    vpandd(Distances, Distances, Bits);
+    vpxord(active(Words), Words, Distances);
+  };
+  Label Apart, Done;
+  locateOwnLine(Addresses, Bytes, Distances, Spread, Apart, Elsewhere);
+  if (Bytes < WordBytes) {
+    vmovdqu32(Spread, ptr[rcx]);
+    vpbroadcastd(Distances, edx);
+    Insert(Spread);
+    vmovdqu32(ptr[rcx], Spread);
+  } else if (isFull()) {
+    vmovdqu32(ptr[rcx], Values);
+  } else {
+    // Not with a mask, for the reason that result() has.
+    vmovdqu32(Spread, ptr[rcx]);
+    vmovdqa32(Spread | k1, Values);
+    vmovdqu32(ptr[rcx], Spread);
+  }
+  L(Done);
+  outOfLine([=, this]() mutable {
+    L(Apart);
+    locateOwnWords(Bytes, Distances, Spread, Elsewhere);
+    if (Bytes < WordBytes) {
+      const Zmm Words(SpareZmm);
+      gather(Words, Spread);
+      isFull() ? setAll(k2) : copy(k2, k1);
+      firstBits(Distances, Distances);
+      Insert(Words);
+      scatter(Spread, Words, isFull());
+    } else {
+      scatter(Spread, Values, isFull());
+    }
+    jmp(Done);
   });
 }
 
@@ -225,6 +392,10 @@ void Emitter::writeOwnStackFinder() {
   sub(eax, LeastOnStack);
   shr(eax, cl);
   jnz(None);
+  mov(dword[rdi + VORION_PLACE(StackPointerDepth)], edx);
+  mov(eax, 1);
+  shl(eax, cl);
+  mov(dword[rdi + VORION_PLACE(StackBytes)], eax);
   shr(edx, 2);
   imul(edx, edx, LineBytes);
   lea(r12, ptr[r11 + rdx]);

@@ -5,6 +5,7 @@
 /// reason.
 
 #include "testing/Operations.h"
+#include "testing/Setting.h"
 #include "testing/WarpRunner.h"
 #include "translate/Translator.h"
 
@@ -330,8 +331,11 @@ public:
       Stride = 0U - (64U << 10);
     Lanes16 A;
     const bool IsRandom = below(5) == 0;
+    // Of neighbours in the stacks: each lane's own, anywhere in it.
+    const bool IsOwn = Stride == 0U - (64U << 10);
     for (uint32_t L = 0; L != MaxLanes; ++L)
-      A[L] = IsRandom ? Base + 4 * below(64) : Base + L * Stride;
+      A[L] = (IsRandom ? 4 * below(32) : 0) +
+             (IsRandom && !IsOwn ? Base : Base + L * Stride);
     return A;
   }
 
@@ -388,13 +392,6 @@ void PrintTo(const Runs &R, std::ostream *To) {
   *To << R.Programs << " programs, " << R.PercentAccesses << " % accesses";
 }
 
-/// For longer runs than the suite's (docs/random-tests.md).
-unsigned setting(const char *Name, unsigned Default) {
-  const char *Text = std::getenv(Name);
-  return Text ? static_cast<unsigned>(std::strtoul(Text, nullptr, 10))
-              : Default;
-}
-
 class TranslatedPrograms : public ::testing::TestWithParam<Runs> {
 protected:
   void SetUp() override {
@@ -407,8 +404,8 @@ TEST_P(TranslatedPrograms, DoesWhatTheInterpreterDoes) {
   unsigned Translated = 0;
   uint64_t Executed = 0;
   const unsigned Count =
-      setting("VORION_TRANSLATOR_PROGRAMS", GetParam().Programs);
-  const unsigned First = setting("VORION_TRANSLATOR_SEED", 0);
+      vorion::setting("VORION_TRANSLATOR_PROGRAMS", GetParam().Programs);
+  const unsigned First = vorion::setting("VORION_TRANSLATOR_SEED", 0);
   for (unsigned Seed = First; Seed != First + Count; ++Seed) {
     Programs P(Seed + 1000 * GetParam().PercentAccesses);
     const std::vector<uint32_t> Words = P.program(GetParam().PercentAccesses);

@@ -52,6 +52,35 @@ static inline void vx_raster_keep_counts(uint counts) {
   vr_last_set(counts);
 }
 
+/* After vx_raster_setup, and after vx_raster_keep_last where that is used:
+   tiles rendered from here on blend into each pixel only the entries of the
+   list before its limit, a word a pixel, from `limit` on as `output` of
+   vx_raster_render. `first` is the number that limits give the first entry. */
+static inline void vx_raster_limit(uint limit, uint first) {
+  vr_mode_set(vr_mode() | 1 << VR_MODE_LIMITED_SHIFT);
+  vr_index_set(VR_WORD_LIMIT);
+  vr_word_set(limit);
+  vr_index_set(VR_WORD_LIMIT_FIRST);
+  vr_word_set(first);
+}
+
+/* Likewise: into each pixel only the entries from its first on, a word a pixel
+   from `from` on. After vx_raster_limit, whose `first` holds here, too. */
+static inline void vx_raster_from(uint from) {
+  vr_mode_set(vr_mode() | 1 << VR_MODE_FROM_SHIFT);
+  vr_index_set(VR_WORD_FROM);
+  vr_word_set(from);
+}
+
+/* After vx_raster_setup, for a list that several commands blend, one after the
+   other. With `load` tiles from here on begin with the pixels at `output`; with
+   `keep` they mark those that are saturated, which the next command needs. */
+static inline void vx_raster_sequence(uint load, uint keep) {
+  vr_mode_set((vr_mode() & ~(VR_MODE_LOAD_MASK | VR_MODE_KEEP_SATURATED_MASK)) |
+              load << VR_MODE_LOAD_SHIFT |
+              keep << VR_MODE_KEEP_SATURATED_SHIFT);
+}
+
 /* For training: queues the way back through a tile that vx_raster_render has
    left at `output` with its last contributors at `last`; `upstream` has the
    pixels' gradients, `options` is vr_backward. The core has to take what is
@@ -64,6 +93,25 @@ static inline void vx_raster_backward(uint list, uint count, uint x, uint y,
   vr_upstream_set(upstream);
   vr_backward_set(options);
   vx_raster_render(list, count, x, y, width, height, output);
+}
+
+/* After vx_raster_setup with options 0: the records are vx_triangle
+   (vorion_triangles.h), and a pixel at `output` a vx_visibility. `depth` is
+   VR_WORD_DEPTH, `clear` the depth with which a tile begins. With `fragments`
+   a tile writes no pixels, and the core has to take its fragments with
+   vr_grad_next() until that is 0. */
+static inline void vx_raster_triangles(uint depth, float clear,
+                                       uint fragments) {
+  union {
+    float value;
+    uint bits;
+  } word = {clear};
+  vr_mode_set(VR_PRIMITIVE_TRIANGLE << VR_MODE_PRIMITIVE_SHIFT |
+              fragments << VR_MODE_FRAGMENTS_SHIFT);
+  vr_index_set(VR_WORD_DEPTH);
+  vr_word_set(depth);
+  vr_index_set(VR_WORD_DEPTH_CLEAR);
+  vr_word_set(word.bits);
 }
 
 #endif

@@ -9,21 +9,23 @@ LLD_HAS_DRIVER(elf)
 
 namespace vorion::link {
 
-static bool link(const std::vector<std::string> &Arguments, bool EndEarly) {
+static bool link(const std::vector<std::string> &Arguments,
+                 llvm::raw_ostream &Messages, bool EndEarly) {
   std::vector<const char *> Argv;
   Argv.reserve(Arguments.size());
   for (const std::string &Argument : Arguments)
     Argv.push_back(Argument.c_str());
-  return lld::elf::link(Argv, llvm::outs(), llvm::errs(), EndEarly,
+  return lld::elf::link(Argv, llvm::outs(), Messages, EndEarly,
                         /*disableOutput=*/false);
 }
 
 void runLld(const std::vector<std::string> &Arguments) {
-  lld::exitLld(link(Arguments, /*EndEarly=*/true) ? 0 : 1);
+  lld::exitLld(link(Arguments, llvm::errs(), /*EndEarly=*/true) ? 0 : 1);
 }
 
-bool callLld(const std::vector<std::string> &Arguments) {
-  const bool Linked = link(Arguments, /*EndEarly=*/false);
+bool callLld(const std::vector<std::string> &Arguments,
+             llvm::raw_ostream &Messages) {
+  const bool Linked = link(Arguments, Messages, /*EndEarly=*/false);
   lld::CommonLinkerContext::destroy();
   return Linked;
 }

@@ -46,13 +46,14 @@ programArguments(const std::vector<std::string> &Given) {
 }
 
 Expected<Success> completeProgram(std::span<std::byte> Program,
-                                  const std::string &Name) {
-  const auto Needs = writeStackNeeds(Program, Name);
+                                  std::string_view Tool,
+                                  const std::string &File) {
+  const auto Needs = writeStackNeeds(Program, File);
   if (!Needs)
     return Needs.error();
   for (const StackNeed &Need : *Needs)
     if (Need.Bytes > VX_MAX_STACK_ROOM)
-      printDiagnostic("vorion-link", "warning", Name,
+      printDiagnostic(Tool, "warning", File,
                       fmt::format("{} needs a stack of {} bytes per work-item, "
                                   "expected at most {}, the limit of a machine",
                                   Need.Name, Need.Bytes, VX_MAX_STACK_ROOM));

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vorion::link {
@@ -20,9 +21,11 @@ inline constexpr const char *LinkerName = "ld.lld-19";
 Expected<std::vector<std::string>>
 programArguments(const std::vector<std::string> &Given);
 
-/// Completes the kernel table of a linked \p Program, and prints a warning for
-/// each stack that no machine provides. \p Name is used in messages only.
+/// Completes the kernel table of a linked \p Program, and prints a warning of
+/// \p Tool for each stack that no machine provides. \p File is used in
+/// messages only; empty if the program is in none.
 Expected<Success> completeProgram(std::span<std::byte> Program,
-                                  const std::string &Name);
+                                  std::string_view Tool,
+                                  const std::string &File);
 
 } // namespace vorion::link

@@ -123,6 +123,8 @@ static void parse_length(struct vx_spec *spec, const char **at,
     size = dialect == VX_DIALECT_OPENCL ? 8 : (int)sizeof(long), chars = 1;
   else if (p[0] == 'j')
     size = 8, chars = 1;
+  else if (p[0] == 'L' && dialect == VX_DIALECT_C)
+    size = 16, chars = 1;
   else if (p[0] == 'z' || p[0] == 't')
     size = (int)sizeof(size_t), chars = 1;
   spec->length = size;
@@ -197,6 +199,28 @@ static uint64_t double_of(uint64_t bits, int size) {
   return size == 2 ? widen(bits, 5, 10) : size == 4 ? widen(bits, 8, 23) : bits;
 }
 
+uint64_t vx_double_of_quad(uint64_t low, uint64_t high) {
+  const uint64_t sign = high >> 63 << 63, infinity = (uint64_t)0x7ff << 52;
+  const int biased = (int)(high >> 48 & 0x7fff);
+  const uint64_t fraction = high << 16 >> 1 | low >> 49, rest = low << 15;
+  if (biased == 0x7fff)
+    return sign | infinity | (uint64_t)((fraction | rest) != 0) << 51;
+  /* The first of 64 bits is 1, and the last says what was cut off. */
+  const uint64_t significand = (uint64_t)1 << 63 | fraction | (rest != 0);
+  const int exponent = biased - 16383 + 1023;
+  if (exponent >= 0x7ff)
+    return sign | infinity;
+  const int shift = exponent > 0 ? 11 : 12 - exponent;
+  if (shift > 64)
+    return sign;
+  const uint64_t half = (uint64_t)1 << (shift - 1);
+  const uint64_t below = significand & (half | (half - 1));
+  uint64_t value = shift == 64 ? 0 : significand >> shift;
+  value += below > half || (below == half && value & 1);
+  /* The first bit of a normal number adds 1 to its exponent. */
+  return sign | (value + ((uint64_t)(exponent > 0 ? exponent - 1 : 0) << 52));
+}
+
 /* A vector argument as the ABI passes it (RISC-V calling convention, "Integer
    Calling Convention"): up to four bytes in a word, eight in an aligned pair,
    more by reference. */
@@ -244,6 +268,15 @@ static void put_scalar_integer(struct vx_text *text, const struct vx_spec *spec,
 
 static void put_scalar_float(struct vx_text *text, const struct vx_spec *spec,
                              struct arguments *arguments) {
+#if __LDBL_MANT_DIG__ == 113
+  if (spec->length == 16) {
+    const long double wide = va_arg(arguments->list, long double);
+    uint64_t parts[2];
+    __builtin_memcpy(parts, &wide, sizeof(parts));
+    vx_format_double(text, spec, vx_double_of_quad(parts[0], parts[1]));
+    return;
+  }
+#endif
   const double value = va_arg(arguments->list, double);
   uint64_t bits;
   __builtin_memcpy(&bits, &value, sizeof(bits));
@@ -269,6 +302,8 @@ static int put_conversion(struct vx_text *text, const struct vx_spec *spec,
   case 'o':
   case 'u':
   case 'x':
+    if (spec->length == 16)
+      return -1;
     if (spec->vector)
       return put_vector(text, spec, arguments);
     put_scalar_integer(text, spec, arguments);

@@ -10,7 +10,7 @@ struct vx_spec {
   int width;
   int precision; /* -1 where not given */
   int vector;    /* elements, 0 for a scalar */
-  int length;    /* bytes of an integer: 1, 2, 4, 8; 0 where not given */
+  int length;    /* bytes of a number: 1, 2, 4, 8, 16; 0 where not given */
   char letter;   /* lower case */
   int upper;
 };
@@ -32,5 +32,9 @@ void vx_format_integer(struct vx_text *text, const struct vx_spec *spec,
 /* bits: an IEEE double; letters f e g a. */
 void vx_format_double(struct vx_text *text, const struct vx_spec *spec,
                       uint64_t bits);
+
+/* The double nearest to a number of 128 bits (ties to even), by bits: no soft
+   float needed. */
+uint64_t vx_double_of_quad(uint64_t low, uint64_t high);
 
 #endif

@@ -2,7 +2,7 @@
 /// What depends on the device's calling convention (vectors, unpromoted floats)
 /// is tested on the simulator.
 extern "C" {
-#include "format.h"
+#include "format_internal.h"
 }
 
 #include <bit>
@@ -11,6 +11,7 @@ extern "C" {
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <limits>
 #include <rapidcheck/gtest.h>
@@ -151,6 +152,42 @@ RC_GTEST_PROP(Format, AnyDoubleLikeTheHost, (uint64_t Bits)) {
   for (const char *Format : HexFormats)
     if (!isSubnormal(Value))
       RC_ASSERT(ours(Format, Value) == hosts(Format, Value));
+}
+
+/// The host's own conversion.
+uint64_t doubleOfQuad(uint64_t Low, uint64_t High) {
+  const uint64_t Parts[] = {Low, High};
+  __extension__ __float128 Quad;
+  std::memcpy(&Quad, Parts, sizeof(Quad));
+  return std::bit_cast<uint64_t>(static_cast<double>(Quad));
+}
+
+RC_GTEST_PROP(Format, LongDoublesAreRoundedLikeTheHost,
+              (uint64_t Low, uint64_t High)) {
+  Low *= 0x9e3779b97f4a7c15U;
+  High *= 0x9e3779b97f4a7c15U;
+  // All exponents, and those of doubles, whose subnormal ones end at -1074.
+  const uint64_t Exponent = 16383 - 1080 + High % 2110;
+  const uint64_t Near = (High & ~(uint64_t{0x7fff} << 48)) | Exponent << 48;
+  for (const uint64_t H : {High, Near})
+    // The last bits decide on ties.
+    for (const uint64_t L : {Low, Low & ~uint64_t{0} << 60, uint64_t{0}})
+      if ((H >> 48 & 0x7fff) != 0x7fff)
+        RC_ASSERT(vx_double_of_quad(L, H) == doubleOfQuad(L, H));
+}
+
+TEST(Format, LongDoublesAtTheLimits) {
+  for (const uint64_t Exponent :
+       {0, 1, 15308, 15309, 15310, 15311, 15360, 15361, 15362, 17406, 17407})
+    for (const uint64_t Fraction :
+         {0ULL, 1ULL, 0x800000000000ULL, 0xffffffffffffULL, 0xfffffffff000ULL})
+      for (const uint64_t Low :
+           {0ULL, 1ULL, 1ULL << 59, 1ULL << 60, 3ULL << 59, 3ULL << 60, ~0ULL})
+        EXPECT_EQ(vx_double_of_quad(Low, Exponent << 48 | Fraction),
+                  doubleOfQuad(Low, Exponent << 48 | Fraction))
+            << Exponent << " " << Fraction << " " << Low;
+  EXPECT_EQ(vx_double_of_quad(0, 0xffffULL << 48), 0xfffULL << 52);
+  EXPECT_GT(vx_double_of_quad(1, 0x7fffULL << 48), 0x7ffULL << 52);
 }
 
 TEST(Format, InfinityAndNan) {

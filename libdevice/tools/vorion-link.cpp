@@ -151,7 +151,7 @@ Expected<Success> addStackNeeds(const std::string &Output) {
   Expected<std::vector<std::byte>> Program = readFile(Output);
   if (!Program)
     return Program.error();
-  if (const auto Completed = link::completeProgram(*Program, Output);
+  if (const auto Completed = link::completeProgram(*Program, Tool, Output);
       !Completed)
     return Completed;
   std::fstream File(Output, std::ios::in | std::ios::out | std::ios::binary);

@@ -67,6 +67,21 @@ static std::string folderAmong(llvm::ArrayRef<char *> Arguments) {
   return {};
 }
 
+/// Runs vorion-explorer in \p Folder in place of this program, with the words
+/// of
+/// \p Argv but the one at \p Option; returns if it cannot.
+static int runExplorer(llvm::StringRef Folder, char **Argv, char **Option) {
+  for (; *Option; ++Option)
+    *Option = Option[1];
+  llvm::SmallString<256> Tool(Folder);
+  llvm::sys::path::append(Tool, "vorion-explorer");
+  execv(Tool.c_str(), Argv);
+  llvm::errs() << "vorion-clang: error: " << Tool
+               << ": cannot be run, expected the program that is installed "
+                  "with this one\n";
+  return 70;
+}
+
 int main(int Argc, char **Argv) {
   llvm::InitLLVM Init(Argc, Argv);
   // LLVM would take an empty one for the folder that it is in.
@@ -81,6 +96,9 @@ int main(int Argc, char **Argv) {
       return vorion::runWithResources(Tool, Arguments, *Form);
     });
   llvm::sys::path::remove_filename(Tool);
+  if (const auto Explorer = llvm::find(Arguments, "--explorer");
+      Explorer != Arguments.end())
+    return runExplorer(Tool, Argv, Argv + 1 + (Explorer - Arguments.begin()));
   llvm::sys::path::append(Tool, "vorion-cl-link");
   if (wantsKernelImage({Argv + 1, Argv + Argc})) {
     execv(Tool.c_str(), Argv);

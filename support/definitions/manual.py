@@ -67,7 +67,7 @@ def remarks(option):
     if value.get("kind") == "one-of" and not value["optional"] and "|" not in value["name"]:
         yield "One of " + ", ".join(words) + "."
     if "range" in value:
-        yield "From " + value["range"].strip("[]").replace(" - ", " to ") + "."
+        yield "From " + value["range"].replace("..", " to ") + "."
     if option["required"]:
         yield "Required."
     if option["repeats"]:

@@ -8,14 +8,14 @@ import time
 
 
 class Browser:
-    """reaches: what Chromium may connect to, as its rules for names of hosts except from finding nothing."""
+    """reaches: what Chromium may connect to, as its rules for names of hosts except from finding nothing; options: further ones of Chromium."""
 
-    def __init__(self, folder, width=1200, height=900, reaches=("127.0.0.1", "localhost")):
+    def __init__(self, folder, width=1200, height=900, reaches=("127.0.0.1", "localhost"), options=("--disable-gpu",)):
         theirs_in, self.ours_out = os.pipe()
         self.ours_in, theirs_out = os.pipe()
         # Offline: everything that would call out is off, and names resolve to nothing. Chromium reads the protocol from
         # descriptor 3 and writes it to 4; both may be in use here.
-        command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+        command = ["chromium", "--headless", "--no-sandbox", *options, "--disable-quic", "--no-first-run",
                    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage",
                    "--host-resolver-rules=" + ", ".join(["MAP * ~NOTFOUND", *(f"EXCLUDE {name}" for name in reaches)]),
                    f"--user-data-dir={folder}/user",

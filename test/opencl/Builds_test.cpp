@@ -4,7 +4,10 @@
 #include "TestDevice.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 using vorion::test::TestDevice;
@@ -121,6 +124,20 @@ TEST_F(Builds, WrongArgumentsHaveTheirCodes) {
   const cl::Program Source = program(Good);
   const cl_program Uncompiled = Source();
   EXPECT_EQ(Link(C, 0, nullptr, 1, &Uncompiled, nullptr), CL_INVALID_OPERATION);
+}
+
+TEST_F(Builds, ACompilerThatGivesNoAnswerIsEnded) {
+  const std::string Folder = testing::TempDir() + "never";
+  std::filesystem::create_directory(Folder);
+  mkfifo((Folder + "/never.h").c_str(), 0600); // which nobody writes
+  setenv("VORION_COMPILE_SECONDS", "1", 1);
+  cl::Program P = program("#include \"never.h\"\n");
+  EXPECT_EQ(build(P, ("-I" + Folder).c_str()), CL_BUILD_PROGRAM_FAILURE);
+  unsetenv("VORION_COMPILE_SECONDS");
+  EXPECT_TRUE(log(P).starts_with("the compiler gave no answer in 1 s"))
+      << log(P);
+  EXPECT_EQ(program(Good).build(), CL_SUCCESS);
+  std::filesystem::remove_all(Folder);
 }
 
 TEST_F(Builds, APartThatIsInUseOrHasNoSourceIsNotBuiltAgain) {
@@ -267,6 +284,22 @@ TEST_F(Builds, UnknownOptionsAreNamed) {
   EXPECT_EQ(link({P()}, "-create-library -cl-fast-relaxed-math", Status)(),
             nullptr);
   EXPECT_EQ(Status, CL_INVALID_LINKER_OPTIONS);
+}
+
+// Only the linker knows what inline assembly calls.
+TEST_F(Builds, TheLogNamesTheKernelThatCannotBeLinked) {
+  const cl::Program P =
+      program("kernel void f() { __asm__ volatile(\"call missing\"); }\n");
+  ASSERT_EQ(build(P), CL_SUCCESS);
+  const cl::Kernel Kernel(P, "f");
+  cl::Event Done;
+  ASSERT_EQ(Device.queue().enqueueNDRangeKernel(Kernel, cl::NullRange, 1, 1,
+                                                nullptr, &Done),
+            CL_SUCCESS);
+  EXPECT_NE(Done.wait(), CL_SUCCESS);
+  for (const char *Named : {"kernel f: cannot be linked",
+                            "undefined symbol: missing", "kernel f:(f)"})
+    EXPECT_NE(log(P).find(Named), std::string::npos) << log(P);
 }
 
 TEST_F(Builds, TheLogHasEveryErrorWithItsLineAndPlace) {

@@ -9,6 +9,7 @@
 #include <CL/cl_ext.h>
 
 #include <array>
+#include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -406,6 +407,36 @@ TEST_F(Spirv, WhatTheTranslatorSaysIsInTheLog) {
   EXPECT_NE(Log.find("the module cannot be translated: "), std::string::npos)
       << Log;
   EXPECT_EQ(Log.find("PLEASE submit"), std::string::npos) << Log;
+}
+
+/// The translator is no child of the program, but of its compiler.
+TEST_F(Spirv, ProgramsThatIgnoreTheirChildrenBuildModules) {
+  const auto Before = std::signal(SIGCHLD, SIG_IGN);
+  build(module("spec"));
+  std::signal(SIGCHLD, Before);
+}
+
+TEST_F(Spirv, TheSizesOfSpecializationConstantsAreThoseOfTheirTypes) {
+  cl_int Status = CL_SUCCESS;
+  const cl::Program Program = create(module("spec-sizes"), Status);
+  ASSERT_EQ(Status, CL_SUCCESS);
+  const cl_ulong Value = 0;
+  for (const auto &[Id, Size] : {std::pair<cl_uint, std::size_t>{1, 1},
+                                 {2, 2},
+                                 {3, 4},
+                                 {4, 8},
+                                 {5, 2},
+                                 {6, 4},
+                                 {7, 8},
+                                 {8, 1},
+                                 {9, 1}})
+    for (const std::size_t Given : {1, 2, 4, 8})
+      EXPECT_EQ(
+          clSetProgramSpecializationConstant(Program(), Id, Given, &Value),
+          Given == Size ? CL_SUCCESS : CL_INVALID_VALUE)
+          << Id << ", " << Given << " bytes";
+  EXPECT_EQ(clSetProgramSpecializationConstant(Program(), 10, 4, &Value),
+            CL_INVALID_SPEC_ID);
 }
 
 } // namespace

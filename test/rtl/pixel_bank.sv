@@ -1,16 +1,18 @@
 // A slice of the pixel buffer, with a read and a write port. What is written in
 // the cycle of a read is read.
-module pixel_bank (
+module pixel_bank #(
+    parameter BITS = 128
+) (
     input  logic         clk,
     input  logic         reads,
     input  logic [7:0]   read_address,
-    output logic [127:0] read_data,
+    output logic [BITS-1:0] read_data,
     input  logic         writes,
     input  logic [7:0]   write_address,
-    input  logic [127:0] write_data
+    input  logic [BITS-1:0] write_data
 );
-  logic [127:0] pixels[256];
-  logic [127:0] stored, passed;
+  logic [BITS-1:0] pixels[256];
+  logic [BITS-1:0] stored, passed;
   logic passes;
   assign read_data = passes ? passed : stored;
   always_ff @(posedge clk) begin

@@ -1,12 +1,20 @@
-// A Gaussian rasterizer that executes one tile command: fetch, box cut, Gaussian
-// buffer, dispatch, 16 lanes with a bank of the pixel buffer each, and the
-// writing of the tile. docs/rtl.md says what it leaves out.
+// A rasterizer of Gaussians and triangles that executes one tile command: fetch,
+// box cut, the buffer of primitives, dispatch, 16 lanes with a bank of the pixel
+// buffer each, and the writing of the tile. docs/rtl.md says what it leaves out.
 module rasterizer #(
-    parameter int ENTRIES = 16 // of the Gaussian buffer
+    parameter ENTRIES = 16, // of the buffer
+    // The kinds that it draws, and how a lane computes edges (lane.sv).
+    parameter GAUSSIANS = 1,
+    parameter TRIANGLES = 1,
+    parameter FP_EDGES = 0
 ) (
     input  logic         clk, reset,
     // A command, which stays until it is done.
     input  logic         start,
+    input  logic         draws_triangles,
+    input  logic [2:0]   compare, // of the depth test: less, equal, greater
+    input  logic         writes_depth,
+    input  logic [31:0]  clear_depth,
     input  logic [15:0]  origin_x, origin_y,
     input  logic [6:0]   width, height,
     input  logic [31:0]  cutoff, list_at, records, count, target, pitch,
@@ -15,83 +23,100 @@ module rasterizer #(
     output logic         request, writes,
     output logic [31:0]  address,
     output logic [511:0] data,
-    output logic [3:0]   pixels, // of the line, that are written
+    output logic [7:0]   parts, // eighths of the line, that are written
     input  logic         answer,
     input  logic [511:0] line,
     // What the cycle went to, for counters.
     output logic [2:0]   state,
     output logic         blends, waits, misses
 );
+  localparam RECORD_BITS = TRIANGLES != 0 ? 576 : 384;
+  localparam SHAPE_BITS = TRIANGLES != 0 ? (FP_EDGES != 0 ? 416 : 440) : 288;
+  localparam PIXEL_BITS = GAUSSIANS != 0 ? 128 : 64;
+  localparam ENTRY_BITS = SHAPE_BITS + 28;
   localparam logic [2:0] IDLE = 0, TAKE = 1, CLEAR = 2, BLEND = 3, EMPTY = 4, WRITE = 5;
   logic [1:0] taken; // of a command's 15 words, in fours
   logic [5:0] clear_row;
   logic [1:0] clear_column;
   logic [12:0] open; // pixels that are not closed
-  logic [31:0] left; // Gaussians to be dispatched
+  logic [31:0] left; // primitives to be dispatched
   logic [5:0] busy; // cycles behind dispatch that hold pixels
-  logic begins, is_over;
+  logic begins, is_over, is_triangle;
+  assign is_triangle = TRIANGLES != 0 && (GAUSSIANS == 0 || draws_triangles);
 
-  // Fetch, cut and the Gaussian buffer.
+  // Fetch, cut and the buffer.
   logic fetched, cut_done, used, quiet, fetch_request;
   logic [31:0] fetch_address;
-  logic [351:0] gaussian;
-  logic [287:0] cut_gaussian;
+  logic [RECORD_BITS-1:0] record;
+  logic [SHAPE_BITS-1:0] shape;
   logic [6:0] first_x, end_x, first_y, end_y;
-  logic [315:0] buffer[ENTRIES];
+  logic [ENTRY_BITS-1:0] buffer[ENTRIES];
   logic [$clog2(ENTRIES)-1:0] buffer_in, buffer_out;
   logic [$clog2(ENTRIES):0] buffered;
-  logic [315:0] head;
+  logic [ENTRY_BITS-1:0] head;
+  logic [27:0] head_box;
   assign begins = state == TAKE && taken == 3;
   assign is_over = state >= EMPTY || (state == BLEND && open == 0);
-  fetch #(.ENTRIES(ENTRIES)) fetches (
-      .clk, .reset, .start(begins), .stop(is_over), .list_at, .records, .count, .quiet, .request(fetch_request),
-      .address(fetch_address), .answer, .line, .valid(fetched), .gaussian, .used);
-  cut cuts (
-      .clk, .reset(reset || begins), .origin_x, .origin_y, .valid(fetched), .gaussian, .done(cut_done), .cut_gaussian,
-      .first_x, .end_x, .first_y, .end_y);
+  fetch #(.ENTRIES(ENTRIES), .TRIANGLES(TRIANGLES)) fetches (
+      .clk, .reset, .is_triangle, .start(begins), .stop(is_over), .list_at, .records, .count, .quiet, .request(fetch_request),
+      .address(fetch_address), .answer, .line, .valid(fetched), .record, .used);
+  cut #(.GAUSSIANS(GAUSSIANS), .TRIANGLES(TRIANGLES), .FP_EDGES(FP_EDGES)) cuts (
+      .clk, .reset(reset || begins), .is_triangle, .origin_x, .origin_y, .valid(fetched), .record, .done(cut_done),
+      .shape, .first_x, .end_x, .first_y, .end_y);
   assign head = buffer[buffer_out];
+  assign head_box = head[ENTRY_BITS-1-:28];
 
-  // Dispatch. What goes to the lanes takes its Gaussian along.
+  // Dispatch. What goes to the lanes takes its primitive along.
   logic [15:0] lanes;
   logic [127:0] rows;
   logic [6:0] tile_end_x, tile_end_y;
-  logic [287:0] gaussian_1, gaussian_2, gaussian_3, gaussian_4, gaussian_5;
+  logic [SHAPE_BITS-1:0] shape_1;
+  logic [287:160] shape_2, shape_3, shape_4;
+  logic [287:192] shape_5;
   logic [127:0] rows_2, rows_3, rows_4, rows_5, rows_6;
-  assign tile_end_x = head[301:295] < width ? head[301:295] : width;
-  assign tile_end_y = head[315:309] < height ? head[315:309] : height;
+  assign tile_end_x = head_box[13:7] < width ? head_box[13:7] : width;
+  assign tile_end_y = head_box[27:21] < height ? head_box[27:21] : height;
   dispatch dispatches (
-      .clk, .reset(reset || begins), .valid(state == BLEND && buffered != 0 && open != 0), .first_x(head[294:288]),
-      .end_x(tile_end_x), .first_y(head[308:302]), .end_y(tile_end_y), .takes(used), .blends, .waits, .lanes, .rows);
+      .clk, .reset(reset || begins), .valid(state == BLEND && buffered != 0 && open != 0), .first_x(head_box[6:0]),
+      .end_x(tile_end_x), .first_y(head_box[20:14]), .end_y(tile_end_y), .takes(used), .blends, .waits, .lanes, .rows);
   assign misses = used && !blends;
 
   // Lanes and banks.
   logic [15:0] reads, lane_writes, closes, line_reads;
   logic [127:0] line_rows;
-  logic [2047:0] bank_pixels;
+  logic [16*PIXEL_BITS-1:0] bank_pixels;
+  logic [127:0] cleared, lane_rows, written_rows;
+  // A triangle's pixel is read and written three cycles earlier.
+  assign lane_rows = is_triangle ? rows : rows_4;
+  assign written_rows = is_triangle ? rows_3 : rows_6;
+  assign cleared = is_triangle ? {64'd0, 32'hffffffff, clear_depth} : {32'h3f800000, 96'd0};
   for (genvar n = 0; n < 16; n++) begin : slice
     logic [5:0] x, y;
     logic [127:0] updated;
+    logic reaches; // of the backward mode, which is not here
+    logic [31:0] alpha, wanted;
     assign y = rows[8*n+2+:6];
     assign x = {rows[8*n+:2], 4'(4'(n) - {y[1:0], 2'b00})};
-    lane lane (
-        .clk, .reset(reset || begins), .valid(lanes[n]), .column(17'(origin_x) + 17'(x)), .row(17'(origin_y) + 17'(y)),
-        .mean_x(gaussian_1[31:0]), .mean_y(gaussian_1[63:32]), .conic_a(gaussian_1[95:64]),
-        .conic_b(gaussian_1[127:96]), .conic_c(gaussian_1[159:128]), .opacity(gaussian_4[191:160]), .reads(reads[n]),
-        .red(gaussian_5[223:192]), .green(gaussian_5[255:224]), .blue(gaussian_5[287:256]),
-        .pixel(bank_pixels[128*n+:128]), .cutoff, .writes(lane_writes[n]), .closes(closes[n]), .updated);
-    pixel_bank bank (
-        .clk, .reads(reads[n] || line_reads[n]), .read_address(line_reads[n] ? line_rows[8*n+:8] : rows_4[8*n+:8]),
-        .read_data(bank_pixels[128*n+:128]), .writes(state == CLEAR || lane_writes[n]),
-        .write_address(state == CLEAR ? {clear_row, clear_column} : rows_6[8*n+:8]),
-        .write_data(state == CLEAR ? {32'h3f800000, 96'd0} : updated));
+    lane #(.GAUSSIANS(GAUSSIANS), .TRIANGLES(TRIANGLES), .FP_EDGES(FP_EDGES)) lane (
+        .clk, .reset(reset || begins), .draws_triangles, .valid(lanes[n]), .column(17'(origin_x) + 17'(x)),
+        .row(17'(origin_y) + 17'(y)), .x, .y, .shape(shape_1), .tag(shape_2[223:192]), .compare,
+        .writes_depth, .opacity(shape_4[191:160]), .reaches, .alpha, .wanted,
+        .reads(reads[n]), .pixel(128'(bank_pixels[PIXEL_BITS*n+:PIXEL_BITS])),
+        .red(shape_5[223:192]), .green(shape_5[255:224]), .blue(shape_5[287:256]), .cutoff,
+        .writes(lane_writes[n]), .closes(closes[n]), .updated);
+    pixel_bank #(.BITS(PIXEL_BITS)) bank (
+        .clk, .reads(reads[n] || line_reads[n]), .read_address(line_reads[n] ? line_rows[8*n+:8] : lane_rows[8*n+:8]),
+        .read_data(bank_pixels[PIXEL_BITS*n+:PIXEL_BITS]), .writes(state == CLEAR || lane_writes[n]),
+        .write_address(state == CLEAR ? {clear_row, clear_column} : written_rows[8*n+:8]),
+        .write_data(PIXEL_BITS'(state == CLEAR ? cleared : updated)));
   end
 
   // Writing.
   logic stores, stored;
   logic [31:0] store_address;
-  tile_writer writer (
-      .clk, .active(state == WRITE), .width, .height, .target, .pitch, .done(stored), .reads(line_reads),
-      .rows(line_rows), .banks(bank_pixels), .writes(stores), .address(store_address), .data, .pixels);
+  tile_writer #(.GAUSSIANS(GAUSSIANS), .TRIANGLES(TRIANGLES)) writer (
+      .clk, .active(state == WRITE), .is_triangle, .width, .height, .target, .pitch, .done(stored), .reads(line_reads),
+      .rows(line_rows), .banks(bank_pixels), .writes(stores), .address(store_address), .data, .parts);
   assign writes = stores;
   assign request = stores || fetch_request;
   assign address = stores ? store_address : fetch_address;
@@ -104,11 +129,11 @@ module rasterizer #(
 
   always_ff @(posedge clk) begin
     done <= 0;
-    gaussian_1 <= head[287:0];
-    gaussian_2 <= gaussian_1;
-    gaussian_3 <= gaussian_2;
-    gaussian_4 <= gaussian_3;
-    gaussian_5 <= gaussian_4;
+    shape_1 <= head[SHAPE_BITS-1:0];
+    shape_2 <= shape_1[287:160];
+    shape_3 <= shape_2;
+    shape_4 <= shape_3;
+    shape_5 <= shape_4[287:192];
     rows_2 <= rows;
     rows_3 <= rows_2;
     rows_4 <= rows_3;
@@ -118,7 +143,7 @@ module rasterizer #(
     open <= open - 13'(closed);
     left <= left - 32'(used);
     if (cut_done) begin
-      buffer[buffer_in] <= {end_y, first_y, end_x, first_x, cut_gaussian};
+      buffer[buffer_in] <= {end_y, first_y, end_x, first_x, shape};
       buffer_in <= buffer_in + 1'b1;
     end
     if (used) buffer_out <= buffer_out + 1'b1;
@@ -152,7 +177,7 @@ module rasterizer #(
         end
       end
       BLEND: if (open == 0 || left == 32'(used)) state <= EMPTY;
-      EMPTY: if (busy[3:0] == 0 || open == 0) state <= WRITE;
+      EMPTY: if ((is_triangle ? !busy[0] : busy[3:0] == 0) || open == 0) state <= WRITE;
       WRITE:
       if (stored) begin
         state <= IDLE;

@@ -114,22 +114,25 @@ template <typename Real> splat::Npz toNpz(const reference::Picture<Real> &P) {
   const auto H = static_cast<std::size_t>(P.Height);
   const auto W = static_cast<std::size_t>(P.Width);
   std::vector<Real> Alpha;
-  std::vector<uint8_t> Threshold, Order;
+  std::vector<uint8_t> Threshold, Order, Surface;
   Alpha.reserve(P.Transmittance.size());
   for (const Real T : P.Transmittance)
     Alpha.push_back(1 - T);
   Threshold.reserve(P.Doubts.size());
   Order.reserve(P.Doubts.size());
+  Surface.reserve(P.Doubts.size());
   for (const uint8_t D : P.Doubts) {
     Threshold.push_back((D & reference::DoubtThreshold) != 0);
     Order.push_back((D & reference::DoubtOrder) != 0);
+    Surface.push_back((D & reference::DoubtSurface) != 0);
   }
   using splat::NpyArray;
   return {{"render", NpyArray::of({H, W, 3}, converted<Real>(renderOf(P)))},
           {"alpha", NpyArray::of({H, W}, Alpha)},
           {"last", NpyArray::of({H, W}, P.Last)},
           {"mask_threshold", NpyArray::fromBools({H, W}, Threshold)},
-          {"mask_order", NpyArray::fromBools({H, W}, Order)}};
+          {"mask_order", NpyArray::fromBools({H, W}, Order)},
+          {"mask_surface", NpyArray::fromBools({H, W}, Surface)}};
 }
 
 template <typename Real>

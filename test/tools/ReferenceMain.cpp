@@ -2,6 +2,8 @@
 
 #include "Convert.h"
 #include "Tool.h"
+#include "io/Npz.h"
+#include "mesh/Mesh.h"
 #include "reference/AlongRays.h"
 #include "reference/PixelOrder.h"
 #include "scene/SceneFile.h"
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +23,8 @@ struct Arguments {
   std::string Scene, Cameras, View, Output, Json, Pairs;
   std::string Rules = "inria", Support = "exact", Precision = "f64";
   std::string Projection = "jacobian", Order = "depth";
+  std::string Mesh, Visible;
+  std::vector<double> Light; ///< empty: none
   std::vector<float> Background{0, 0, 0};
   bool AlongRays = false;
   splat::ReadOptions Read;
@@ -37,6 +42,80 @@ reference::Options optionsOf(const Arguments &A) {
   return O;
 }
 
+/// The layers of \p Seen, which are planes of pixels as \p To has them.
+Expected<Success> readLayers(const std::string &Where, splat::Npz &Seen,
+                             const reference::Mesh &M,
+                             reference::MeshView &To) {
+  const std::vector<double> Depths = Seen["layer_depth"].toDoubles();
+  const std::vector<int64_t> Triangles = Seen["layer_triangle"].toIntegers();
+  const std::size_t Pixels = To.Depths.size();
+  if (Depths.size() % Pixels != 0 || Triangles.size() != Depths.size() ||
+      std::ranges::any_of(Triangles, [&](int64_t N) {
+        return N >= static_cast<int64_t>(M.triangles());
+      }))
+    return Error{Where, "no planes of layers, expected what splat render "
+                        "--dump-visible wrote for this view and mesh"};
+  To.Layers.resize(Pixels);
+  for (std::size_t I = 0; I < Depths.size(); ++I)
+    if (Triangles[I] >= 0)
+      To.Layers[I % Pixels].push_back({Depths[I], Triangles[I]});
+  return Success{};
+}
+
+/// The triangles that \p Visible names in the view of \p C.
+Expected<reference::MeshView> readView(const std::string &Visible,
+                                       const reference::Mesh &M,
+                                       const reference::Camera<double> &C) {
+  auto Seen = splat::readNpz(Visible);
+  if (!Seen)
+    return Seen.error();
+  const splat::NpyArray Depths = (*Seen)["depth"],
+                        Triangles = (*Seen)["triangle"];
+  const std::vector<std::size_t> Shape{static_cast<std::size_t>(C.Height),
+                                       static_cast<std::size_t>(C.Width)};
+  reference::MeshView V;
+  V.Triangles = Triangles.toIntegers();
+  V.Depths = Depths.toDoubles();
+  if (Depths.Shape != Shape || Triangles.Shape != Shape ||
+      V.Triangles.size() != Shape[0] * Shape[1] ||
+      std::ranges::any_of(V.Triangles, [&](int64_t N) {
+        return N >= static_cast<int64_t>(M.triangles());
+      }))
+    return Error{
+        Visible,
+        fmt::format("no depth and triangle of {} x {} pixels, expected "
+                    "what splat render --dump-visible wrote for this "
+                    "view and mesh",
+                    C.Width, C.Height)};
+  if (Seen->contains("layer_depth"))
+    if (auto Read = readLayers(Visible, *Seen, M, V); !Read)
+      return Read.error();
+  return V;
+}
+
+/// The mesh of --mesh in the view of \p C, where --visible says or, without it,
+/// wholly in fp64.
+Expected<reference::Surface<double>>
+surfaceOf(const Arguments &A, const reference::Camera<double> &C,
+          const reference::Options &O) {
+  const auto File = splat::readMesh(A.Mesh);
+  if (!File)
+    return File.error();
+  std::optional<std::array<float, 3>> Light;
+  if (!A.Light.empty()) {
+    const double Length = std::hypot(A.Light[0], A.Light[1], A.Light[2]);
+    Light.emplace();
+    for (std::size_t K = 0; K < 3; ++K)
+      (*Light)[K] = static_cast<float>(A.Light[K] / Length);
+  }
+  const reference::Mesh M = splat::toReference(*File, Light);
+  const auto Seen = A.Visible.empty() ? Expected(reference::viewOf(M, C, O))
+                                      : readView(A.Visible, M, C);
+  if (!Seen)
+    return Seen.error();
+  return reference::surfaceOf(M, C, *Seen);
+}
+
 template <typename Real>
 Expected<Success> run(const Arguments &A, const splat::Scene &S,
                       const splat::Camera &View) {
@@ -46,6 +125,14 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
   const auto Splats = reference::project(splat::toReference<Real>(S), C, O);
   auto P = reference::blend(Splats, C.Width, C.Height, O);
   if constexpr (std::is_same_v<Real, double>) {
+    std::optional<reference::Surface<double>> Behind;
+    if (!A.Mesh.empty()) {
+      auto Made = surfaceOf(A, C, O);
+      if (!Made)
+        return Made.error();
+      Behind = std::move(*Made);
+      P = reference::blend(Splats, C.Width, C.Height, O, &*Behind);
+    }
     if (A.AlongRays)
       P = reference::renderAlongRays(splat::toReference<Real>(S), C, O,
                                      A.Order == "pose"
@@ -54,7 +141,8 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
     if (A.Order == "ray") {
       const auto G = splat::toReference<Real>(S);
       auto R = reference::blendInOrder(Splats, C.Width, C.Height, O,
-                                       reference::depthAlongRay(G, C));
+                                       reference::depthAlongRay(G, C),
+                                       Behind ? &*Behind : nullptr);
       P.Render = std::move(R.Render);
       P.Transmittance = std::move(R.Transmittance);
     }
@@ -123,6 +211,15 @@ Expected<Success> run(Arguments &A) {
   if (A.Order == "pose" && !A.AlongRays)
     return Error{"", "--order pose is for --along-rays, expected it too",
                  ExitCode::Usage};
+  if (A.Mesh.empty() && !(A.Visible.empty() && A.Light.empty()))
+    return Error{"", "--visible and --light are for --mesh, expected it too",
+                 ExitCode::Usage};
+  if (!A.Mesh.empty() &&
+      (A.Precision != "f64" || A.AlongRays || A.Order == "pose"))
+    return Error{"",
+                 "--mesh is for --precision f64 and --order depth or ray, "
+                 "expected these",
+                 ExitCode::Usage};
   const auto File = splat::readScene(A.Scene, A.Read);
   if (!File)
     return File.error();
@@ -174,6 +271,15 @@ int main(int Count, char **Values) {
                  "footprints under a rolling shutter")
       ->check(CLI::IsMember({"depth", "ray", "pose"}))
       ->capture_default_str();
+  App.add_option("--mesh", A.Mesh,
+                 "With f64: a mesh with the Gaussians (docs/meshes.md)");
+  App.add_option("--visible", A.Visible,
+                 "Its depths and triangles, from splat render --dump-visible "
+                 "(default: computed in fp64; pixels within half a sub-pixel "
+                 "of an edge are doubtful)");
+  App.add_option("--light", A.Light, "Direction x,y,z of a light on the mesh")
+      ->delimiter(',')
+      ->expected(3);
   App.add_flag("--along-rays", A.AlongRays,
                "With f64: evaluate each Gaussian at its maximum density along "
                "the pixel's ray, from the camera's position at the pixel's "

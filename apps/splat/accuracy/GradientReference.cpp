@@ -4,6 +4,7 @@
 #include "io/Cameras.h"
 #include "io/Metrics.h"
 #include "io/Npz.h"
+#include "picture/SceneUnit.h"
 #include "reference/Backward.h"
 #include "reference/Loss.h"
 #include "reference/Render.h"
@@ -12,6 +13,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -79,13 +82,15 @@ NpyArray rows(std::size_t Count, const std::vector<double> &Values) {
 } // namespace
 
 Expected<Success>
-writeGradientReference(const GradientFiles &Files, const Scene &S,
-                       const TrainView &V,
+writeGradientReference(const GradientFiles &Files, Scene S, const TrainView &V,
                        const std::array<float, 3> &Background) {
   reference::Options O;
   O.Background = {Background[0], Background[1], Background[2]};
+  std::optional<float> Near;
+  prepareToDraw(S, {V.Pose}, Rules::Inria, Near);
+  O.Near = double{Near.value_or(0)};
   const auto G = toReference<double>(S);
-  const auto Pose = toReference<double>(V.Pose);
+  const auto Pose = toReference<double>(relativeTo(V.Pose, S.Origin));
   const auto Picture = reference::render(G, Pose, O);
   const auto Loss = reference::lossOf(Picture.Render, colours(V.Picture),
                                       Picture.Width, Picture.Height);

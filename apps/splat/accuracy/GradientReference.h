@@ -27,8 +27,7 @@ struct GradientFiles {
 /// support `exact`, and computes the gradients of the loss. Gradients of
 /// doubtful pixels are 0.
 Expected<Success>
-writeGradientReference(const GradientFiles &Files, const Scene &S,
-                       const TrainView &V,
+writeGradientReference(const GradientFiles &Files, Scene S, const TrainView &V,
                        const std::array<float, 3> &Background);
 
 /// Relative L2 errors of f32_g_* in \p File, an output of `splat gradients`, by

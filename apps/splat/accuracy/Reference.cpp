@@ -1,8 +1,10 @@
 #include "accuracy/Reference.h"
 
 #include "analyze/ToReference.h"
+#include "cameras/CameraFile.h"
 #include "io/Inside.h"
 #include "io/Npz.h"
+#include "picture/SceneUnit.h"
 #include "reference/Render.h"
 
 #include <fmt/format.h>
@@ -23,27 +25,34 @@ std::string referenceFile(const SweepPlan &P, const Point &Of) {
 /// The scene, once a reference needs it.
 struct ReadScene {
   std::optional<reference::Gaussians<double>> Scene;
-  Drawing DrawnAs;
+  WorldPoint Origin{};
+  reference::Options Options;
 
   Expected<Success> load(const SweepPlan &P) {
     if (Scene)
       return Success{};
-    const auto File = P.Load();
+    auto File = P.Load();
     if (!File)
       return File.error();
+    // As the processes that draw do.
+    const auto Cameras = readCameraFile(P.CameraFile);
+    std::optional<float> Near;
+    prepareToDraw(File->Gaussians, Cameras ? Cameras->Cameras : P.Views,
+                  Rules::Inria, Near);
     Scene = toReference<double>(File->Gaussians);
-    DrawnAs = File->DrawnAs;
+    Origin = File->Gaussians.Origin;
+    Options = toReference(File->DrawnAs);
+    Options.Near = double{Near.value_or(0)};
     return Success{};
   }
 };
 
-Expected<Success> writeReference(const std::string &Path,
-                                 const reference::Gaussians<double> &Scene,
-                                 const Camera &View, Support Reach,
-                                 const Drawing &DrawnAs) {
-  reference::Options O = toReference(DrawnAs);
+Expected<Success> writeReference(const std::string &Path, const ReadScene &Of,
+                                 const Camera &View, Support Reach) {
+  reference::Options O = Of.Options;
   O.Reach = toReference(Reach);
-  const auto Picture = reference::render(Scene, toReference<double>(View), O);
+  const auto Picture = reference::render(
+      *Of.Scene, toReference<double>(relativeTo(View, Of.Origin)), O);
   std::vector<double> Render;
   Render.reserve(3 * Picture.Render.size());
   for (const auto &Pixel : Picture.Render)
@@ -68,7 +77,7 @@ referenceMaker(const SweepPlan &P, std::function<void(std::string_view)> Log) {
         return Loaded;
       Log(fmt::format("reference of {}, support {}", Of.View->Name,
                       name(Reach)));
-      return writeReference(Path, *Read->Scene, *Of.View, Reach, Read->DrawnAs);
+      return writeReference(Path, *Read, *Of.View, Reach);
     });
   };
 }

@@ -85,7 +85,7 @@ makeReference(const TrainSweepPlan &P,
     return Made;
   const GradientFiles Files(references(P));
   const auto Make = [&]() -> Expected<Success> {
-    const auto State = readScene(stateFile(P));
+    auto State = readScene(stateFile(P));
     if (!State)
       return State.error();
     const auto C = readCapture(P.Capture, {P.Exclude, P.AllowOutside});
@@ -95,7 +95,7 @@ makeReference(const TrainSweepPlan &P,
     if (!Pictures)
       return Pictures.error();
     Log("reference gradients in fp64");
-    return writeGradientReference(Files, State->Gaussians,
+    return writeGradientReference(Files, std::move(State->Gaussians),
                                   Pictures->Training.front(), P.Background);
   };
   return makeOnce({Files.Gradients, Files.Upstream, Files.Cameras}, P.From,

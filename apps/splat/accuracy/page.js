@@ -63,15 +63,17 @@ function kindOf(e, front, best) {
 }
 
 // Rings of settings that would cover each other become larger, one after the other, so that each can be seen.
-function spread(chart, points) {
-  const { x, y } = chart.scales, placed = [];
-  for (const p of points) {
-    const [px, py] = [x.getPixelForValue(p.x), y.getPixelForValue(p.y)];
-    const there = placed.filter(q => Math.hypot(q.px - px, q.py - py) < 9).length;
-    p.radius = 5 + 3.5 * there;
-    placed.push({ px, py });
-  }
-}
+const spread = {
+  id: 'spread',
+  afterUpdate(chart) {
+    const placed = [], { data: points } = chart.data.datasets[0];
+    chart.getDatasetMeta(0).data.forEach((ring, n) => {
+      const radius = points[n].radius = 5 + 3.5 * placed.filter(p => Math.hypot(p.x - ring.x, p.y - ring.y) < 9).length;
+      ring.options = { ...ring.options, radius, hoverRadius: radius };
+      placed.push(ring);
+    });
+  },
+};
 
 function drawPlot(entries, front, best) {
   const { metric, axis: time } = state;
@@ -89,23 +91,20 @@ function drawPlot(entries, front, best) {
   const base = entries.find(e => e.setting === 'default')?.times[time] ?? Infinity;
   const edge = MOST_OF_DEFAULT * base;
   const points = shown.map(e => ({ x: Math.min(e.times[time], edge) * AXES[time].scale, y: height(e), name: e.setting, entry: e, beyond: e.times[time] > edge }));
-  const lines = [lineOf(front.map(e => ({ x: e.times[time] * AXES[time].scale, y: height(e) })), 'mark')];
+  const lines = [lineOf('Pareto front', front.map(e => ({ x: e.times[time] * AXES[time].scale, y: height(e) })), 'mark')];
   const [low, high] = [Math.min(...points.map(p => p.x)), Math.max(...points.map(p => p.x))];
   const room = 0.04 * (high - low || high);
-  if (metric === 'psnr_db') lines.push(lineOf([{ x: low - room, y: state.floor }, { x: high + room, y: state.floor }], 'bad', { borderDash: [5, 4] }));
+  if (metric === 'psnr_db') lines.push(lineOf('minimum', [{ x: low - room, y: state.floor }, { x: high + room, y: state.floor }], 'bad', { borderDash: [5, 4] }));
   const ticks = { callback: value => (tick ? (Number.isInteger(value) ? tick(value) : '') : value === equal ? 'equal' : value > most + 5 ? '' : value) };
-  const chart = drawPoints('plot', points, {
-    colours: points.map(p => colour(kindOf(p.entry, front, best))), dots: { pointBorderWidth: 2.5, pointHoverBorderWidth: 3.5 }, more: lines, plugins: [dashBeyond],
+  drawPoints('plot', points, {
+    isNamed: p => ['chosen', 'good', 'ink', 'mark'].includes(kindOf(p.entry, front, best)),
+    colours: points.map(p => colour(kindOf(p.entry, front, best))), dots: { pointBorderWidth: 2.5, pointHoverBorderWidth: 3.5 }, more: lines, plugins: [spread, dashBeyond],
     scales: {
       x: axis(`${AXES[time].label}, ${AXES[time].unit}`, { min: low - room, max: high + room, ticks: { includeBounds: false, maxRotation: 0, callback: tickText } }),
       y: axis(`${label}, better is higher`, { grace: '6%', ticks }),
     },
     others: { layout: { padding: { right: 14, top: 8 } }, onHover: (event, found) => showTip(entriesAt(found), event.native) },
   });
-  spread(chart, points);
-  const [rings] = chart.data.datasets;
-  rings.pointRadius = rings.pointHoverRadius = points.map(p => p.radius);
-  chart.update();
 }
 
 // The settings of what a chart found under the pointer.
@@ -153,8 +152,8 @@ function drawTable(entries, front, base) {
   for (const [key, metric] of Object.entries(METRICS))
     columns.push([metric.label, e => e.errors[key], e => format(e.errors[key], metric)]);
   for (const axis of Object.keys(AXES))
-    columns.push([`${AXES[axis].label}; change from the default`, e => e.times[axis] ?? Infinity,
-      e => `${time(e.times[axis], axis)} ${base ? changeOf(e.times[axis], base.times[axis]) : ''}`]);
+    columns.push([AXES[axis].label, e => e.times[axis] ?? Infinity, e => time(e.times[axis], axis)],
+      ['change', e => e.times[axis] ?? Infinity, e => (base ? changeOf(e.times[axis], base.times[axis]) : '')]);
   columns.push(['lane area', e => e.area, e => `${(100 * e.area).toFixed(1)} %`]);
   drawEntries(columns, entries, e => e.setting, e => front.includes(e));
 }
@@ -192,9 +191,9 @@ function drawRecommended(front) {
 
 function drawFree(free, base) {
   if (!base) return;
-  const table = element('table', {}, rowOf(['setting', 'cycles', 'PSNR, dB', 'lane area', 'at equal area'], 'th'));
+  const table = element('table', {}, rowOf(['setting', 'change of cycles', 'PSNR, dB', 'lane area', 'at equal area'], 'th'));
   for (const e of free)
-    table.append(rowOf([e.setting, 'free: ' + changeOf(e.times.cycles, base.times.cycles), format(e.errors.psnr_db, METRICS.psnr_db),
+    table.append(rowOf([e.setting, changeOf(e.times.cycles, base.times.cycles), format(e.errors.psnr_db, METRICS.psnr_db),
       `${(100 * e.area).toFixed(1)} %`, changeOf(e.times.equal_area_cycles, base.times.equal_area_cycles)]));
   byId('free').replaceChildren(table);
 }
@@ -210,7 +209,7 @@ function drawDetails(entries, base) {
   byId('details').replaceChildren(list, ...pointsOf(e.setting).map(pictures));
 }
 
-function draw() {
+const draw = () => drawAround(() => {
   const summary = data.summaries[state.view], entries = entriesOf(summary);
   const base = entries.find(e => e.setting === 'default');
   const front = summary.fronts[state.metric][state.axis].map(n => entries[n]);
@@ -220,7 +219,7 @@ function draw() {
   drawRecommended(front);
   drawFree(summary.free.map(n => entries[n]), base);
   drawDetails(entries, base);
-}
+});
 
 // Seconds of the host for ways to simulate, with the error of their cycles.
 function drawHost() {

@@ -54,7 +54,7 @@ function drawPlot() {
   const colours = points.map(({ setting: { setting } }) => colour(setting === state.selected ? 'chosen' : setting === 'default' ? 'ink' : 'mark'));
   const ends = axis => points.flatMap(p => [p[axis].least, p[axis].most]);
   drawPoints('plot', points, {
-    colours, plugins: [spreads],
+    colours, plugins: [spreads], isNamed: () => true,
     dots: { pointRadius: 6, pointHoverRadius: 8, pointBackgroundColor: colours.map(c => c + '90'), pointHoverBackgroundColor: undefined, pointStyle: points.map(p => (p.name === 'default' ? 'rect' : 'circle')) },
     scales: {
       x: axis(label, { grace: '5%', suggestedMin: Math.min(...ends('at')), suggestedMax: Math.max(...ends('at')), ticks: logarithmic ? { callback: t => `1e${t.toFixed(1)}` } : {} }),
@@ -86,11 +86,11 @@ function drawCurves() {
   });
 }
 
-function draw() {
+const draw = () => drawAround(() => {
   drawPlot();
   drawTable();
   drawCurves();
-}
+});
 
 function start() {
   byId('machine').textContent = `Times are those of ${data.clocked_machine}.`;

@@ -5,9 +5,8 @@
 
 namespace vorion::splat {
 
-std::map<std::string, Chart> chartsOf(const Analysis &A,
-                                      const std::string &What) {
-  Chart Pairs{"Gaussian invocations, " + What,
+std::map<std::string, Chart> chartsOf(const Analysis &A) {
+  Chart Pairs{"Gaussian invocations",
               "tile size (pixels)",
               "invocations (thousands)",
               {},
@@ -24,7 +23,7 @@ std::map<std::string, Chart> chartsOf(const Analysis &A,
     Pairs.Series.push_back(std::move(S));
   }
 
-  Chart Occlusion{"Occluded pixels, " + What,
+  Chart Occlusion{"Occluded pixels",
                   "part of the tile's list that is done (%)",
                   "occluded pixels (%)",
                   {},
@@ -32,7 +31,7 @@ std::map<std::string, Chart> chartsOf(const Analysis &A,
                   {},
                   false,
                   {}};
-  Chart Lengths{"Lengths of the tiles' lists, " + What,
+  Chart Lengths{"Lengths of the tiles' lists",
                 "entries (from; to twice as many)",
                 "tiles (%)",
                 {},

@@ -11,8 +11,7 @@ namespace vorion::splat {
 
 /// `invocations`, `occlusion` and `lists`: pairs against tile size for every
 /// support, occluded pixels against list depth and tiles against list length
-/// for 16 and 64 pixels. \p What is part of the titles: scene and view.
-std::map<std::string, Chart> chartsOf(const Analysis &A,
-                                      const std::string &What);
+/// for 16 and 64 pixels.
+std::map<std::string, Chart> chartsOf(const Analysis &A);
 
 } // namespace vorion::splat

@@ -68,6 +68,61 @@ template <typename Real> reference::Camera<Real> toReference(const Camera &C) {
   return R;
 }
 
+static reference::Texture toReference(const Texture &T) {
+  reference::Texture R;
+  for (const Texture::Level &L : T.Levels) {
+    auto &To = R.Levels.emplace_back();
+    To.Width = static_cast<int>(L.Width);
+    To.Height = static_cast<int>(L.Height);
+    for (std::size_t I = L.First; I < L.First + L.Width * L.Height; ++I) {
+      const uint32_t C = T.Texels[I];
+      To.Texels.push_back(
+          glm::dvec4(C & 255, C >> 8 & 255, C >> 16 & 255, C >> 24) / 255.0);
+    }
+  }
+  return R;
+}
+
+static reference::MeshLook toReference(const Material &M) {
+  using Look = reference::MeshLook;
+  Look R;
+  R.Picture = M.Picture ? static_cast<int>(*M.Picture) : -1;
+  for (std::size_t A = 0; A < 2; ++A)
+    R.Edges[A] = M.Sampling.Wraps[A] == Wrap::Repeat   ? Look::Edge::Repeat
+                 : M.Sampling.Wraps[A] == Wrap::Mirror ? Look::Edge::Mirror
+                                                       : Look::Edge::Clamp;
+  R.MagnifiesLinearly = M.Sampling.MagnifiesLinearly;
+  R.MinifiesLinearly = M.Sampling.MinifiesLinearly;
+  R.Levels = M.Sampling.Levels == Sampler::Mips::None      ? Look::Mips::None
+             : M.Sampling.Levels == Sampler::Mips::Nearest ? Look::Mips::Nearest
+                                                           : Look::Mips::Linear;
+  R.Cutoff = M.Alpha == AlphaMode::Mask ? double{M.Cutoff} : 0;
+  R.IsTransparent = M.Alpha == AlphaMode::Blend;
+  return R;
+}
+
+reference::Mesh toReference(const Mesh &M,
+                            const std::optional<std::array<float, 3>> &Light) {
+  reference::Mesh R;
+  R.Positions = rows3<double>(M.Positions);
+  for (std::size_t I = 0; I < M.Colors.size(); I += 4)
+    R.Colors.emplace_back(M.Colors[I], M.Colors[I + 1], M.Colors[I + 2],
+                          M.Colors[I + 3]);
+  R.Corners = M.Corners;
+  for (std::size_t I = 0; I < M.TextureCoordinates.size(); I += 2)
+    R.Coordinates.emplace_back(M.TextureCoordinates[I],
+                               M.TextureCoordinates[I + 1]);
+  R.Normals = rows3<double>(M.Normals);
+  for (const Material &Each : M.Materials)
+    R.Looks.push_back(toReference(Each));
+  R.LookOf = M.MaterialOf;
+  for (const Texture &Each : M.Textures)
+    R.Textures.push_back(toReference(Each));
+  if (Light)
+    R.Light = glm::dvec3((*Light)[0], (*Light)[1], (*Light)[2]);
+  return R;
+}
+
 reference::Rules toReference(Rules R) {
   switch (R) {
   case Rules::Inria:

@@ -46,7 +46,7 @@ std::vector<Sample> samplesOf(const Scene &S) {
     Sample One;
     std::array<double, 3> Sizes{};
     for (std::size_t A = 0; A < 3; ++A) {
-      One.Mean[A] = S.Means[3 * I + A];
+      One.Mean[A] = S.mean(3 * I + A);
       Sizes[A] =
           std::exp(std::clamp<double>(S.LogScales[3 * I + A], -80.0, 80.0));
     }
@@ -144,24 +144,41 @@ double spreadAlong(const std::vector<Sample> &Samples, const SceneFocus &F,
   return quantile(std::move(Values), 0.5);
 }
 
-Vector upFrom(const std::vector<Sample> &Samples, const SceneFocus &F) {
+Vector upFrom(const std::vector<Sample> &Samples, const SceneFocus &F,
+              const std::optional<Vector> &Near) {
+  // A floor is below what stands on it. Of a room the ceiling is flat, too: on
+  // 14 scenes with up near -y or +z the product is at most 0.02.
+  const auto RightWayUp = [&](const FlatSide &Up) {
+    const bool IsUpsideDown =
+        Up.Share * heightOfFlat(Samples, F, Up.Direction) > 0.05;
+    return (IsUpsideDown ? -1.0 : 1.0) * Up.Direction;
+  };
+  // Few flat Gaussians say too little to lean by.
+  constexpr double LeastShare = 0.05;
+  if (Near) {
+    const FlatSide Up = flatSideNear(Samples, F, *Near);
+    return Up.Share > LeastShare ? RightWayUp(Up) : *Near;
+  }
   // Trainers' cameras have y down, and so have their scenes; others have z up.
-  // A street or a garden is much wider than high.
-  const Vector Y{0, -1, 0}, Z{0, 0, 1};
-  const bool LiesInXy =
-      spreadAlong(Samples, F, Y) > 3 * spreadAlong(Samples, F, Z);
+  // A figure or a tower is taller than wide, a street or a garden much wider
+  // than high.
+  const Vector X{1, 0, 0}, Y{0, -1, 0}, Z{0, 0, 1};
+  const double Wide = spreadAlong(Samples, F, X),
+               AtY = spreadAlong(Samples, F, Y),
+               AtZ = spreadAlong(Samples, F, Z);
+  constexpr double Tall = 1.5;
+  if (AtY > Tall * std::max(Wide, AtZ))
+    return Y;
+  if (AtZ > Tall * std::max(Wide, AtY))
+    return Z;
+  const bool LiesInXy = std::min(Wide, AtY) > 3 * AtZ;
   const FlatSide AlongY = flatSideNear(Samples, F, Y),
                  AlongZ = flatSideNear(Samples, F, Z);
   const bool IsZ = AlongZ.Share * (LiesInXy ? 2 : 0.45) > AlongY.Share;
   const FlatSide &Up = IsZ ? AlongZ : AlongY;
-  // Few flat Gaussians say too little to lean by.
-  if (!(Up.Share > 0.05))
+  if (!(Up.Share > LeastShare))
     return IsZ ? Z : Y;
-  // A floor is below what stands on it. Of a room the ceiling is flat, too: on
-  // 14 scenes with up near -y or +z the product is at most 0.02.
-  const bool IsUpsideDown =
-      Up.Share * heightOfFlat(Samples, F, Up.Direction) > 0.05;
-  return (IsUpsideDown ? -1.0 : 1.0) * Up.Direction;
+  return RightWayUp(Up);
 }
 
 /// A coarse picture into which samples are put from front to back.
@@ -258,9 +275,82 @@ Camera lookingAt(const Vector &From, const Vector &At, const Vector &Up,
   return C;
 }
 
+/// A part of a scene that is to be in the picture.
+struct Ball {
+  Vector Centre{};
+  double Radius = 0;
+};
+
+/// The samples of a scene without a background, strays excepted; empty for
+/// other scenes.
+std::vector<Ball> wholeOf(const std::vector<Sample> &Samples,
+                          const SceneFocus &F) {
+  constexpr double Nearly = 0.98, Background = 2.2, Stray = 2;
+  std::vector<std::pair<double, double>> Distances;
+  Distances.reserve(Samples.size());
+  for (const Sample &S : Samples)
+    Distances.emplace_back(length(S.Mean - F.Centre), S.Opacity + 1e-9);
+  const double Reach = quantile(std::move(Distances), Nearly);
+  // Two standard deviations, but not the blur of a large Gaussian.
+  const double Largest = 0.2 * F.Radius;
+  std::vector<Ball> Whole;
+  if (Reach <= Background * F.Radius)
+    for (const Sample &S : Samples)
+      if (length(S.Mean - F.Centre) <= Stray * Reach)
+        Whole.push_back({S.Mean, std::min(2 * S.Longest, Largest)});
+  return Whole;
+}
+
+/// From the direction \p Out with \p Whole in the picture, which it fills in
+/// one direction but for a margin.
+Camera showing(const std::vector<Ball> &Whole, const SceneFocus &F,
+               const Vector &Out, int Width, int Height, double Focal,
+               double Nearest) {
+  constexpr double Filled = 0.95; // of the picture's half sides
+  const Vector Forward = -1.0 * Out, Right = unit(cross(Forward, F.Up)),
+               Down = cross(Forward, Right);
+  Vector Least{}, Most{};
+  for (const Ball &B : Whole) {
+    const Vector D = B.Centre - F.Centre;
+    const Vector Seen = {dot(D, Right), dot(D, Down), dot(D, Forward)};
+    for (std::size_t K = 0; K < 3; ++K) {
+      Least[K] = std::min(Least[K], Seen[K]);
+      Most[K] = std::max(Most[K], Seen[K]);
+    }
+  }
+  const Vector At = F.Centre + 0.5 * (Least[0] + Most[0]) * Right +
+                    0.5 * (Least[1] + Most[1]) * Down;
+  const auto Distance = [&](double Lens) {
+    double Away = 0;
+    for (const Ball &B : Whole) {
+      const Vector D = B.Centre - At;
+      const double Across = (std::abs(dot(D, Right)) + B.Radius) / Width,
+                   High = (std::abs(dot(D, Down)) + B.Radius) / Height;
+      Away = std::max(Away, 2 * Lens / Filled * std::max(Across, High) -
+                                dot(D, Forward));
+    }
+    return Away;
+  };
+  // A small scene is farther away, through a longer lens.
+  const double Needed = Nearest + std::max(F.Radius, -Least[2]);
+  double Lens = Focal, Away = Distance(Lens);
+  for (int Round = 0; Away < Needed && Round < 8; ++Round) {
+    Lens = std::min(Lens * 1.001 * Needed / std::max(Away, Needed * 1e-4),
+                    LongestLens * Focal);
+    Away = Distance(Lens);
+  }
+  Away = std::max(Away, Needed);
+  return lookingAt(At + Away * Out, At, F.Up, Width, Height, Lens);
+}
+
 } // namespace
 
-SceneFocus focusOf(const Scene &S, std::optional<Vector> Up) {
+SceneFocus focusOf(const SceneFile &F, std::optional<Vector> Up) {
+  return focusOf(F.Gaussians, Up, F.Up);
+}
+
+SceneFocus focusOf(const Scene &S, std::optional<Vector> Up,
+                   std::optional<Vector> Near) {
   const std::vector<Sample> Samples = samplesOf(S);
   SceneFocus F;
   std::vector<std::pair<double, double>> Values;
@@ -296,7 +386,7 @@ SceneFocus focusOf(const Scene &S, std::optional<Vector> Up) {
       F.Radius = std::max(F.Radius, 3 * One.Longest);
     F.Radius = F.Radius > 0 && std::isfinite(F.Radius) ? F.Radius : 1;
   }
-  F.Up = Up ? unit(*Up) : upFrom(Samples, F);
+  F.Up = Up ? unit(*Up) : upFrom(Samples, F, Near);
   return F;
 }
 
@@ -313,31 +403,38 @@ Camera goodView(const Scene &S, const SceneFocus &F, int Width, int Height,
                                    (double(std::min(Width, Height)) *
                                     std::min(Width, Height)));
   const Vector Side = acrossOf(F.Up), Other = cross(F.Up, Side);
+  const std::vector<Ball> Whole = wholeOf(Samples, F);
   CoarsePicture Picture;
   Camera Best;
   double Most = -1;
   constexpr int Directions = 16;
   for (const auto &[Degrees, Custom] :
        {std::pair(15.0, 1.0), std::pair(30.0, 0.97), std::pair(3.0, 0.92)})
-    for (int D = 0; D < Directions; ++D)
-      for (const double Distance : {1.0, 0.75, 0.55, 0.35}) {
-        const double Turn = 2 * std::numbers::pi * D / Directions;
-        const double High = Degrees * std::numbers::pi / 180;
-        const Vector Out =
-            std::sin(High) * F.Up +
-            std::cos(High) * (std::cos(Turn) * Side + std::sin(Turn) * Other);
-        // Farther away and as large.
-        const double Away =
-            std::max(1.0, (Nearest + F.Radius) / (Distance * Fit));
-        Camera C =
-            lookingAt(F.Centre + Away * Distance * Fit * Out, F.Centre, F.Up,
-                      Width, Height, std::min(Away, LongestLens) * Focal);
-        const double Score = Custom * Picture.score(Samples, C, PerSample);
+    for (int D = 0; D < Directions; ++D) {
+      const double Turn = 2 * std::numbers::pi * D / Directions;
+      const double High = Degrees * std::numbers::pi / 180;
+      const Vector Out =
+          std::sin(High) * F.Up +
+          std::cos(High) * (std::cos(Turn) * Side + std::sin(Turn) * Other);
+      const auto Judge = [&, Weight = Custom](const Camera &C) {
+        const double Score = Weight * Picture.score(Samples, C, PerSample);
         if (Score > Most) {
           Most = Score;
           Best = C;
         }
+      };
+      if (!Whole.empty()) {
+        Judge(showing(Whole, F, Out, Width, Height, Focal, Nearest));
+        continue;
       }
+      for (const double Distance : {1.0, 0.75, 0.55, 0.35}) {
+        // Farther away and as large.
+        const double Away =
+            std::max(1.0, (Nearest + F.Radius) / (Distance * Fit));
+        Judge(lookingAt(F.Centre + Away * Distance * Fit * Out, F.Centre, F.Up,
+                        Width, Height, std::min(Away, LongestLens) * Focal));
+      }
+    }
   Best.Name = "found";
   return Best;
 }

@@ -3,7 +3,7 @@
 
 #include "cameras/Vector.h"
 #include "io/Cameras.h"
-#include "scene/Scene.h"
+#include "scene/SceneFile.h"
 
 #include <optional>
 
@@ -18,15 +18,20 @@ struct SceneFocus {
 };
 
 /// Estimates it from opacities, positions and orientations of \p S, which has
-/// at least one Gaussian. Unless \p Up is given, up is near -y, as in scenes of
-/// trainers, or near +z: the normal of large flat Gaussians, such as those of
-/// floors, along which the extent of the scene is small. If most of them are
-/// above the other Gaussians, the direction is reversed.
-SceneFocus focusOf(const Scene &S, std::optional<Vector> Up = std::nullopt);
+/// at least one Gaussian. Unless \p Up is given, up is near \p Near; without
+/// that, near -y, as in scenes of trainers, or near +z: the axis of a tall
+/// scene, or the normal of large flat Gaussians, such as those of floors, along
+/// which the extent of the scene is small. If most of them are above the other
+/// Gaussians, the direction is reversed.
+SceneFocus focusOf(const Scene &S, std::optional<Vector> Up = std::nullopt,
+                   std::optional<Vector> Near = std::nullopt);
+/// The same, near the direction that \p F states.
+SceneFocus focusOf(const SceneFile &F, std::optional<Vector> Up = std::nullopt);
 
 /// Selects, of views around the focus at several heights and distances, the
 /// view in which most of the detail is visible and fills the picture. Its name
-/// is "found". The complete focus is beyond the depth \p Nearest: a small scene
+/// is "found". A scene without a background is in the picture as a whole. The
+/// complete focus is beyond the depth \p Nearest: a small scene
 /// is viewed from farther away, with a longer focal length. Deterministic.
 Camera goodView(const Scene &S, const SceneFocus &F, int Width, int Height,
                 double Nearest);

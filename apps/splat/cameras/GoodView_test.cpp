@@ -58,6 +58,63 @@ TEST(GoodView, UpIsAcrossTheFloor) {
             (Vector{0, 0, -1}));
 }
 
+/// A standing figure: a column of Gaussians that are flat to the front.
+Scene figure(std::size_t Up, double Sign) {
+  std::mt19937 Random(5);
+  const auto Unit = [&] { return double(Random() >> 8) / (1 << 24) * 2 - 1; };
+  Scene S;
+  for (int I = 0; I < 3000; ++I) {
+    Vector P = {0.3 * Unit(), 0.3 * Unit(), 0.3 * Unit()};
+    P[Up] = Sign * 0.9 * (1 + Unit());
+    Vector Flat{-4, -4, -4};
+    Flat[Up == 2 ? 1 : 2] = -8;
+    add(S, P, Flat);
+  }
+  return S;
+}
+
+TEST(GoodView, ATallSceneStands) {
+  EXPECT_EQ(focusOf(figure(1, -1)).Up, (Vector{0, -1, 0}));
+  EXPECT_EQ(focusOf(figure(2, 1)).Up, (Vector{0, 0, 1}));
+}
+
+TEST(GoodView, UpIsNearWhatTheFileStates) {
+  SceneFile F;
+  F.Gaussians = figure(1, 1);
+  for (const Vector &Stated : {Vector{0, 1, 0}, Vector{0, 0, 1}}) {
+    F.Up = Stated;
+    EXPECT_GT(dot(focusOf(F).Up, Stated), 0.85);
+  }
+  EXPECT_EQ(focusOf(F, Vector{1, 0, 0}).Up, (Vector{1, 0, 0}));
+}
+
+TEST(GoodView, ASceneWithoutBackgroundIsInThePictureAsAWhole) {
+  for (const double Scale : {1.0, 1e-3}) {
+    Scene S = figure(1, -1);
+    for (float &M : S.Means)
+      M *= static_cast<float>(Scale);
+    for (float &L : S.LogScales)
+      L += static_cast<float>(std::log(Scale));
+    for (const auto &[Width, Height] : {std::pair(320, 180), {90, 200}}) {
+      const Camera C = goodView(S, focusOf(S), Width, Height, 0.2);
+      const auto R = C.worldToCameraRotation();
+      const auto T = C.worldToCameraTranslation();
+      double Reach = 0;
+      for (std::size_t I = 0; I < S.size(); ++I) {
+        Vector P{};
+        for (std::size_t A = 0; A < 3; ++A)
+          P[A] = R[3 * A] * S.Means[3 * I] + R[3 * A + 1] * S.Means[3 * I + 1] +
+                 R[3 * A + 2] * S.Means[3 * I + 2] + T[A];
+        ASSERT_GT(P[2], 0.2);
+        Reach = std::max({Reach, std::abs(2 * C.Fx * P[0] / P[2] / Width),
+                          std::abs(2 * C.Fy * P[1] / P[2] / Height)});
+      }
+      EXPECT_LT(Reach, 0.97);
+      EXPECT_GT(Reach, 0.6);
+    }
+  }
+}
+
 TEST(GoodView, ItLooksAtTheFocusFromAboveTheFloor) {
   const Vector Centre{7, -5, 2};
   const Scene S = heapOnFloor(Centre, 1, -1);

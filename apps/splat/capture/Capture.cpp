@@ -2,8 +2,10 @@
 
 #include "capture/CaptureFiles.h"
 #include "capture/ColmapCapture.h"
+#include "capture/ForeignCapture.h"
 #include "capture/Photo.h"
 #include "capture/TransformsCapture.h"
+#include "io/Mean.h"
 #include "vorion/support/File.h"
 #include "vorion/support/FileKind.h"
 #include "vorion/support/Letters.h"
@@ -74,9 +76,8 @@ Expected<Success> exclude(const std::string &Path, Capture &C,
                                Name, didYouMean(Name, Known)),
                    ExitCode::Usage};
     }
-  if (C.Views.size() < 2)
-    return Error{Path, fmt::format("{}, expected at least two",
-                                   counted(C.Views.size(), "view"))};
+  if (C.Views.empty())
+    return Error{Path, "no view, expected at least one"};
   return Success{};
 }
 
@@ -94,18 +95,77 @@ Expected<Success> checkOnce(const std::string &Path,
   return Success{};
 }
 
-Expected<Success> checkPicture(const CaptureView &V) {
+/// Counts views of which something is to be said, and describes the first.
+struct Noted {
+  std::size_t Count = 0;
+  std::string First;
+
+  void add(const std::string &What) {
+    if (Count++ == 0)
+      First = What;
+  }
+};
+
+/// Whether \p W x \p H pixels are those of a picture of \p C in another size,
+/// whose sides may be rounded.
+bool isScaled(double W, double H, const Camera &C) {
+  constexpr double Tolerance = 0.05; // of a side
+  const double Wanted = W * C.Height / C.Width;
+  return std::abs(H - Wanted) < std::max(1.0, Tolerance * Wanted);
+}
+
+/// Looks at the picture of \p V, and scales the intrinsics to it if its size is
+/// another than its camera's.
+Expected<Success> fitPicture(CaptureView &V, Noted &Scaled, Noted &Turned,
+                             Noted &AsStored) {
   const auto File = readRegularFile(V.Picture);
   if (!File)
     return File.error();
-  const auto Size = photoSize(V.Picture, *File);
+  auto Size = photoSize(V.Picture, *File);
   if (!Size)
     return Size.error();
-  if (Size->Width != V.Pose.Width || Size->Height != V.Pose.Height)
+  const Camera &C = V.Pose;
+  const std::string Name = printable(C.Name);
+  const int Orientation = photoOrientation(*File);
+  if (swapsSides(Orientation) && !isScaled(Size->Width, Size->Height, C) &&
+      isScaled(Size->Height, Size->Width, C)) {
+    V.Orientation = Orientation;
+    std::swap(Size->Width, Size->Height);
+    Turned.add(Name);
+  } else if (Orientation != 1) {
+    AsStored.add(Name);
+  }
+  if (!isScaled(Size->Width, Size->Height, C))
     return Error{V.Picture,
-                 fmt::format("{}x{} pixels, expected {}x{} as in its camera",
-                             Size->Width, Size->Height, V.Pose.Width,
-                             V.Pose.Height)};
+                 fmt::format("{}x{} pixels, expected {}x{} as in its camera, "
+                             "or the same picture in another size",
+                             Size->Width, Size->Height, C.Width, C.Height)};
+  if (Size->Width != C.Width || Size->Height != C.Height) {
+    Scaled.add(fmt::format("{} from {}x{} to {}x{}", Name, C.Width, C.Height,
+                           Size->Width, Size->Height));
+    V.Pose = stretched(V.Pose, Size->Width, Size->Height);
+  }
+  return Success{};
+}
+
+Expected<Success> fitPictures(Capture &C) {
+  Noted Scaled, Turned, AsStored;
+  for (CaptureView &V : C.Views)
+    if (auto Good = fitPicture(V, Scaled, Turned, AsStored); !Good)
+      return Good;
+  if (Scaled.Count > 0)
+    C.Notes.push_back(
+        fmt::format("intrinsics of {} scaled to their pictures: {}",
+                    counted(Scaled.Count, "camera"), Scaled.First));
+  if (Turned.Count > 0)
+    C.Notes.push_back(
+        fmt::format("{} turned by their EXIF orientation, as their cameras "
+                    "are: {}",
+                    counted(Turned.Count, "picture"), Turned.First));
+  if (AsStored.Count > 0)
+    C.Notes.push_back(fmt::format(
+        "{} with an EXIF orientation used as stored, as their cameras are: {}",
+        counted(AsStored.Count, "picture"), AsStored.First));
   return Success{};
 }
 
@@ -141,6 +201,21 @@ std::size_t Capture::photographsAlone() const {
       }));
 }
 
+std::vector<float> CapturePoints::local() const {
+  std::vector<float> Local(Positions.size());
+  for (std::size_t I = 0; I < Local.size(); ++I)
+    Local[I] = static_cast<float>(Positions[I] - Origin[I % 3]);
+  return Local;
+}
+
+std::vector<Camera> Capture::poses() const {
+  std::vector<Camera> Poses;
+  Poses.reserve(Views.size());
+  for (const CaptureView &V : Views)
+    Poses.push_back(V.Pose);
+  return Poses;
+}
+
 CameraRing cameraRing(const Capture &C) {
   CameraRing Ring;
   double Count = 0;
@@ -169,10 +244,27 @@ CameraRing cameraRing(const Capture &C) {
   return Ring;
 }
 
+double sceneExtent(const Capture &C) {
+  const CameraRing Ring = cameraRing(C);
+  if (Ring.Radius != 0 || C.Points.size() == 0)
+    return Ring.extent();
+  std::vector<double> Distances;
+  Distances.reserve(C.Points.size());
+  const std::vector<float> Local = C.Points.local();
+  for (std::size_t I = 0; I < Local.size(); I += 3) {
+    std::array<double, 3> Way{};
+    for (std::size_t K = 0; K < 3; ++K)
+      Way[K] = Local[I + K] - (Ring.Centre[K] - C.Points.Origin[K]);
+    Distances.push_back(std::hypot(Way[0], Way[1], Way[2]));
+  }
+  return medianOf(std::move(Distances));
+}
+
 bool isCapture(const std::string &Path) {
-  return findCapture(Path).has_value() &&
-         (!Path.ends_with(".json") ||
-          fs::path(Path).filename().string().starts_with("transforms"));
+  if (findCapture(Path).has_value())
+    return !Path.ends_with(".json") ||
+           fs::path(Path).filename().string().starts_with("transforms");
+  return foreignCapture(Path).has_value();
 }
 
 static Error noCapture(const std::string &Path) {
@@ -180,6 +272,8 @@ static Error noCapture(const std::string &Path) {
       "a folder with COLMAP's sparse/0/cameras.bin or .txt, "
       "transforms_train.json or transforms.json";
   std::error_code Ignored;
+  if (auto Foreign = foreignCapture(Path))
+    return *Foreign;
   if (!fileExists(Path))
     return {Path,
             fmt::format("no such folder, expected a capture: {}", Wanted)};
@@ -259,8 +353,13 @@ Expected<Capture> readCapture(const std::string &Path,
   });
   if (auto Once = checkOnce(Path, C.Views); !Once)
     return Once.error();
-  if (Options.HoldOut || C.HeldOutBy.empty())
-    holdOut(C, Options.HoldOut.value_or(HoldOutEvery));
+  constexpr std::size_t FewestToHoldOut = 3;
+  if (Options.HoldOut || C.HeldOutBy.empty()) {
+    const bool IsEnough = C.Views.size() >= FewestToHoldOut;
+    holdOut(C, Options.HoldOut.value_or(IsEnough ? HoldOutEvery : 0));
+    if (!Options.HoldOut && !IsEnough)
+      C.HeldOutBy = fmt::format("none, of {}", counted(C.Views.size(), "view"));
+  }
   if (C.heldOut() == C.Views.size())
     return Options.HoldOut == 1U
                ? Error{Path,
@@ -268,9 +367,15 @@ Expected<Capture> readCapture(const std::string &Path,
                        "for none, or 2 and more",
                        ExitCode::Usage}
                : Error{Path, "no view to train on, expected at least one"};
-  for (const CaptureView &V : C.Views)
-    if (auto Good = checkPicture(V); !Good)
-      return Good.error();
+  if (auto Good = fitPictures(C); !Good)
+    return Good.error();
+  const std::vector<Camera> Poses = C.poses();
+  C.Points.Origin = localOrigin(
+      Poses, C.Points.size() == 0
+                 ? sampled(Poses.size(),
+                           [&](std::size_t I) { return Poses[I].Position; })
+                 : sampled(C.Points.size(),
+                           [&](std::size_t I) { return C.Points.at(I); }));
   return C;
 }
 

@@ -1,7 +1,7 @@
 /// Photographs with poses, for training.
 #pragma once
 
-#include "io/Cameras.h"
+#include "io/LocalFrame.h"
 #include "vorion/support/Expected.h"
 
 #include <array>
@@ -31,7 +31,10 @@ struct CaptureView {
   /// point, but is a pinhole: users of the picture must undistort it, or assign
   /// this lens to the pose.
   CameraModel Optics;
-  std::string Picture;  ///< the file
+  std::string Picture; ///< the file
+  /// The EXIF orientation by which the stored picture must be turned
+  /// (\c turned()), as its camera is.
+  int Orientation = 1;
   std::string Mask;     ///< the file of the mask, or empty
   bool HeldOut = false; ///< used only for evaluation
   /// Indices of the capture's points that are visible in it; empty in most
@@ -41,10 +44,17 @@ struct CaptureView {
 
 /// The points of a capture.
 struct CapturePoints {
-  std::vector<float> Positions; ///< 3 each, world units
-  std::vector<uint8_t> Colours; ///< 3 each: r, g, b
+  std::vector<double> Positions; ///< 3 each, world units
+  std::vector<uint8_t> Colours;  ///< 3 each: r, g, b
+  /// From where training measures them and its scene, in fp32: 0, or near them
+  /// where fp32 has too few digits (\c localOrigin()).
+  WorldPoint Origin{};
 
   std::size_t size() const { return Colours.size() / 3; }
+  WorldPoint at(std::size_t I) const {
+    return {Positions[3 * I], Positions[3 * I + 1], Positions[3 * I + 2]};
+  }
+  std::vector<float> local() const; ///< all positions from Origin
 };
 
 /// Axes are those of the file, without rotation or scaling. Camera axes are x
@@ -63,8 +73,12 @@ struct Capture {
   std::size_t photographsAlone() const;
   /// The criterion for held-out views, as text.
   std::string HeldOutBy;
+  /// Lines for users about choices of the reader: which model it took, names
+  /// that are not those of their files, pictures of another size.
+  std::vector<std::string> Notes;
 
   std::size_t heldOut() const;
+  std::vector<Camera> poses() const; ///< of all views
 };
 
 /// The centre of the training cameras and the largest distance from it: 0 if
@@ -77,6 +91,10 @@ struct CameraRing {
   double extent() const { return 1.1 * Radius; }
 };
 CameraRing cameraRing(const Capture &C);
+
+/// The extent of the ring, or if all training cameras are at one place, the
+/// median distance of the points from it; 0 without points.
+double sceneExtent(const Capture &C);
 
 /// Default interval of held-out views, sorted by name, from the first view on.
 inline constexpr std::size_t HoldOutEvery = 8;
@@ -106,16 +124,21 @@ struct CaptureOptions {
   /// Interval of held-out views, sorted by name; 0: none. Default: that of the
   /// capture, or HoldOutEvery.
   std::optional<unsigned> HoldOut = std::nullopt;
+  /// The folder of the pictures, in the capture's folder or elsewhere; empty:
+  /// where the capture has them.
+  std::string Images = {}; // NOLINT(readability-redundant-member-init)
 };
 
 /// Reads the capture at \p Path, a folder or a transforms.json:
 /// - `sparse/0`, `sparse` or the folder itself contains COLMAP's cameras,
-///   images and points3D as .bin or .txt, and `images` the pictures;
+///   images and points3D as .bin or .txt, and `images` the pictures; or they
+///   are in other folders (docs/captures.md);
 /// - `transforms_train.json`; `transforms_test.json`, if present, contains the
 ///   held-out views;
 /// - `transforms.json`. Pictures are not decoded, but each must exist once,
-///   have the size of its camera, and be inside the folder unless \p Options
-///   allow otherwise. Views without a picture are skipped and counted.
+///   be inside the folder unless \p Options allow otherwise. The intrinsics of
+///   a picture of another size than its camera are scaled. Views without a
+///   picture are skipped and counted.
 ///
 /// With \c MaskSource::Files, the mask of the picture NAME is `mask_path` of
 /// its frame, or the first of masks/NAME.png, masks/NAME, and masks/NAME with

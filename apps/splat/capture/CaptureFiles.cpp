@@ -1,10 +1,16 @@
 #include "capture/CaptureFiles.h"
 
+#include "capture/PictureNames.h"
+#include "io/Bytes.h"
 #include "io/Inside.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace vorion::splat {
 
@@ -15,21 +21,157 @@ bool fileExists(const fs::path &P) {
   return fs::exists(P, Ignored);
 }
 
+/// The extensions of pictures that photographs may have.
+constexpr const char *PictureEndings[] = {".png", ".jpg", ".jpeg", ".webp"};
+
+bool isPictureName(const fs::path &Path) {
+  const std::string Ending = lowerCase(Path.extension().string());
+  return std::ranges::find(PictureEndings, Ending) != std::end(PictureEndings);
+}
+
+namespace {
+
+/// A model of COLMAP in \p Folder; empty if there is none.
+std::optional<Location> modelIn(const fs::path &Folder, const fs::path &Root) {
+  for (const auto &[Ending, Format] :
+       {std::pair(".bin", CaptureFormat::ColmapBinary),
+        std::pair(".txt", CaptureFormat::ColmapText)})
+    if (fileExists(Folder / (std::string("cameras") + Ending)))
+      return Location{Format, Folder, Root, {}};
+  return std::nullopt;
+}
+
+/// The number of images of \p Model: what its file says, or the lines of text
+/// that are not comments, two for each image.
+std::size_t imagesOf(const Location &Model) {
+  if (Model.Format == CaptureFormat::ColmapBinary) {
+    const auto Start =
+        readStart((Model.Model / "images.bin").string(), sizeof(uint64_t));
+    return Start && Start->size() == sizeof(uint64_t)
+               ? static_cast<std::size_t>(load<uint64_t>(*Start, 0))
+               : 0;
+  }
+  const auto File = readRegularFile((Model.Model / "images.txt").string());
+  if (!File)
+    return 0;
+  std::size_t Lines = 0;
+  bool IsStart = true, IsComment = false;
+  for (const std::byte B : *File) {
+    const char C = static_cast<char>(B);
+    IsComment = IsStart ? C == '#' : IsComment;
+    IsStart = C == '\n';
+    Lines += IsStart && !IsComment ? 1 : 0;
+  }
+  return Lines / 2;
+}
+
+/// The sub-folders of \p Folder by name, at most \p Depth deep.
+std::vector<fs::path> foldersIn(const fs::path &Folder, int Depth) {
+  constexpr std::size_t MostEntries = 100'000;
+  std::vector<fs::path> Folders;
+  std::error_code Ignored;
+  std::size_t Count = 0;
+  for (fs::recursive_directory_iterator It(
+           Folder, fs::directory_options::skip_permission_denied, Ignored);
+       It != fs::recursive_directory_iterator() && ++Count < MostEntries;
+       It.increment(Ignored)) {
+    if (It.depth() + 1 >= Depth)
+      It.disable_recursion_pending();
+    if (It->is_directory(Ignored))
+      Folders.push_back(It->path());
+  }
+  std::ranges::sort(Folders);
+  return Folders;
+}
+
+/// The model of the most images in \p Folders.
+std::optional<Location> largestOf(const std::vector<fs::path> &Folders,
+                                  const fs::path &Root) {
+  std::vector<Location> Models;
+  for (const fs::path &Folder : Folders)
+    if (auto Model = modelIn(Folder, Root))
+      Models.push_back(std::move(*Model));
+  if (Models.size() < 2)
+    return Models.empty() ? std::nullopt : std::optional(Models.front());
+  const auto Largest = std::ranges::max_element(Models, {}, imagesOf);
+  Largest->Note =
+      fmt::format("the model {} with {}, the largest of {}",
+                  Largest->Model.lexically_relative(Root).string(),
+                  counted(imagesOf(*Largest), "image"), Models.size());
+  return *Largest;
+}
+
+/// The model in \p Folder, or the largest in its sub-folders.
+std::optional<Location> modelAt(const fs::path &Folder, const fs::path &Root) {
+  auto Model = largestOf(foldersIn(Folder, 1), Root);
+  return Model ? Model : modelIn(Folder, Root);
+}
+
+} // namespace
+
 std::optional<Location> findCapture(const fs::path &Path) {
   if (Path.extension() == ".json" && fileExists(Path))
-    return Location{CaptureFormat::Transforms, Path, Path.parent_path()};
-  for (const char *Sub : {"sparse/0", "sparse", "."})
-    for (const auto &[Ending, Format] :
-         {std::pair(".bin", CaptureFormat::ColmapBinary),
-          std::pair(".txt", CaptureFormat::ColmapText)})
-      if (fileExists(Path / Sub / (std::string("cameras") + Ending)))
-        return Location{Format, Path / Sub, Path / "images"};
-  if (fileExists(Path / "transforms_train.json"))
-    return Location{CaptureFormat::NerfSynthetic,
-                    Path / "transforms_train.json", Path};
-  if (fileExists(Path / "transforms.json"))
-    return Location{CaptureFormat::Transforms, Path / "transforms.json", Path};
-  return std::nullopt;
+    return Location{CaptureFormat::Transforms, Path, Path.parent_path(), {}};
+  auto Found = modelAt(Path / "sparse", Path);
+  if (!Found)
+    Found = modelIn(Path, Path);
+  for (const auto &[Name, Format] :
+       {std::pair("transforms_train.json", CaptureFormat::NerfSynthetic),
+        std::pair("transforms.json", CaptureFormat::Transforms)})
+    if (!Found && fileExists(Path / Name))
+      return Location{Format, Path / Name, Path, {}};
+  if (Found)
+    return Found;
+  // nerfstudio's layout, and that of INRIA before it undistorts pictures.
+  for (const char *Sub : {"colmap/sparse", "colmap", "distorted/sparse"})
+    if (!Found)
+      Found = modelAt(Path / Sub, Path);
+  if (!Found)
+    Found = largestOf(foldersIn(Path, 3), Path);
+  if (Found && Found->Note.empty())
+    Found->Note = fmt::format("the model {}",
+                              Found->Model.lexically_relative(Path).string());
+  return Found;
+}
+
+std::vector<fs::path> pictureFolders(const Location &F,
+                                     const std::string &Given) {
+  if (!Given.empty()) {
+    const fs::path Inside = F.Root / Given;
+    return {fileExists(Inside) ? Inside : fs::path(Given)};
+  }
+  if (!F.isColmap())
+    return {F.Root};
+  std::vector<fs::path> Folders{F.Root / "images"};
+  // Beside the model, and beside each folder on the way to it.
+  for (fs::path At = F.Model.lexically_normal();
+       At != F.Root.lexically_normal() && At.has_relative_path();
+       At = At.parent_path())
+    Folders.push_back(At / "images");
+  // INRIA's scripts keep distorted photographs in `input`.
+  for (const char *Name : {"input", "images_2", "images_4", "images_8", "."})
+    Folders.push_back(F.Root / Name);
+  return Folders;
+}
+
+PicturePlaces findPictures(const std::vector<fs::path> &Folders,
+                           const std::vector<std::string> &Names,
+                           std::vector<std::string> &Notes) {
+  for (const fs::path &Folder : Folders) {
+    if (!fileExists(Folder))
+      continue;
+    MatchedPictures M = matchPictures(Folder, Names);
+    if (M.Found == 0)
+      continue;
+    if (&Folder != &Folders.front())
+      Notes.push_back("pictures in " + escaped(Folder.string()));
+    Notes.insert(Notes.end(), M.Notes.begin(), M.Notes.end());
+    return {Folder, std::move(M.Files)};
+  }
+  PicturePlaces Missing{Folders.front(), {}};
+  for (const std::string &Name : Names)
+    Missing.Files.push_back(pictureOf(Folders.front(), Name));
+  return Missing;
 }
 
 std::optional<Location> findCameras(const fs::path &Path) {
@@ -41,7 +183,9 @@ std::optional<Location> findCameras(const fs::path &Path) {
 }
 
 fs::path pictureOf(const fs::path &Folder, const std::string &Name) {
-  for (const char *Ending : {"", ".png", ".jpg", ".jpeg", ".webp"})
+  if (fs::path P = Folder / Name; fileExists(P))
+    return P;
+  for (const char *Ending : PictureEndings)
     if (fs::path P = Folder / (Name + Ending); fileExists(P))
       return P;
   return Folder / Name;

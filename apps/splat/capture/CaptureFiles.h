@@ -10,13 +10,18 @@ namespace vorion::splat {
 
 bool fileExists(const std::filesystem::path &P);
 
+/// Whether the extension of \p Path is that of a picture which splat reads.
+bool isPictureName(const std::filesystem::path &Path);
+
 /// The format of a capture, and the locations of its files.
 struct Location {
   CaptureFormat Format = CaptureFormat::ColmapBinary;
   /// Folder of COLMAP's files, or transforms.json.
   std::filesystem::path Model;
-  /// Folder to which names of pictures are relative.
-  std::filesystem::path Pictures;
+  /// The capture's folder.
+  std::filesystem::path Root;
+  /// What is said of the model if there is a choice; or empty.
+  std::string Note;
 
   bool isColmap() const {
     return Format == CaptureFormat::ColmapText ||
@@ -25,6 +30,7 @@ struct Location {
 };
 
 /// The capture at \p Path, a folder or transforms.json; empty if there is none.
+/// Of several models of COLMAP in one place, it is that of the most images.
 std::optional<Location> findCapture(const std::filesystem::path &Path);
 
 /// The same, but \p Path may also be one of COLMAP's files.
@@ -33,6 +39,21 @@ std::optional<Location> findCameras(const std::filesystem::path &Path);
 /// The picture \p Name, with or without extension.
 std::filesystem::path pictureOf(const std::filesystem::path &Folder,
                                 const std::string &Name);
+
+/// The folders in which the pictures of the model at \p F may be, the most
+/// likely first; \p Given is the user's choice, or empty.
+std::vector<std::filesystem::path> pictureFolders(const Location &F,
+                                                  const std::string &Given);
+
+/// Where the capture's pictures \p Names are: in the first folder that has any
+/// of them, else missing in the first. Adds to \p Notes.
+struct PicturePlaces {
+  std::filesystem::path Folder;
+  std::vector<std::filesystem::path> Files; ///< one for each name
+};
+PicturePlaces findPictures(const std::vector<std::filesystem::path> &Folders,
+                           const std::vector<std::string> &Names,
+                           std::vector<std::string> &Notes);
 
 /// The mask of the picture \p Name, in the folder \p Masks; empty for none.
 std::string maskOf(const std::filesystem::path &Masks,

@@ -199,14 +199,14 @@ TEST_P(Captures, PicturesAreLookedAt) {
   const struct {
     const char *Content, *Message;
   } Cases[] = {{"text", "a text, expected a picture as PNG, JPEG or WebP"},
-               {"small", "3x2 pixels, expected 8x6 as in its camera"}};
+               {"small", "3x5 pixels, expected 8x6 as in its camera"}};
   for (const auto &[Content, Message] : Cases) {
     Folder Files = folderOf(GetParam(), sampleCapture());
     auto Picture = std::ranges::find_if(
         Files, [](const auto &F) { return F.first.ends_with("a1.png"); });
     ASSERT_NE(Picture, Files.end());
     Picture->second = std::string(Content) == "small"
-                          ? pngOf(3, 2, std::string(24, '\x7f'))
+                          ? pngOf(3, 5, std::string(60, '\x7f'))
                           : Content;
     const CaptureFolder F(Files);
     const auto C = readCapture(F.path());
@@ -385,12 +385,61 @@ TEST(Capture, TheCallerMayChooseWhatIsHeldOut) {
   EXPECT_NE(All.error().What.find("no view to train on"), std::string::npos);
 }
 
-TEST(Capture, OneViewIsTooFew) {
-  const CaptureFolder F(colmapTextOf(sampleCapture(1)));
+TEST(Capture, OfOneOrTwoViewsNoneIsHeldOut) {
+  for (const std::size_t Views : {1U, 2U}) {
+    const CaptureFolder F(colmapTextOf(sampleCapture(Views)));
+    const auto C = readCapture(F.path());
+    ASSERT_TRUE(C) << C.error().What;
+    EXPECT_EQ(C->Views.size(), Views);
+    EXPECT_EQ(C->heldOut(), 0U);
+    EXPECT_TRUE(C->HeldOutBy.starts_with("none, of")) << C->HeldOutBy;
+    EXPECT_GT(sceneExtent(*C), 0);
+  }
+}
+
+TEST(Capture, CamerasAtOnePlaceHaveTheExtentOfTheirPoints) {
+  Capture C;
+  C.Views.resize(2);
+  EXPECT_EQ(sceneExtent(C), 0);
+  C.Points.Positions = {1, 0, 0, 0, 5, 0, 0, 0, -100};
+  C.Points.Colours.resize(9);
+  EXPECT_EQ(sceneExtent(C), 5);
+}
+
+TEST(Capture, PicturesOfAnotherSizeScaleTheirIntrinsics) {
+  Folder Files = colmapTextOf(sampleCapture());
+  Files["images/a1.png"] = pngOf(16, 12, std::string(4 * 16 * 12, '\x7f'));
+  Files["images/a2.png"] = pngOf(6, 8, std::string(4 * 6 * 8, '\x7f'));
+  {
+    const CaptureFolder F(Files);
+    EXPECT_FALSE(readCapture(F.path())); // a2 is turned
+  }
+  Files.erase("images/a2.png");
+  const CaptureFolder F(Files);
   const auto C = readCapture(F.path());
-  ASSERT_FALSE(C);
-  EXPECT_NE(C.error().What.find("1 view, expected at least"),
-            std::string::npos);
+  ASSERT_TRUE(C) << C.error().What;
+  const Camera &Scaled = C->Views[1].Pose;
+  EXPECT_EQ(Scaled.Width, 16);
+  EXPECT_EQ(Scaled.Fx, 20);
+  EXPECT_EQ(Scaled.Fy, 22);
+  EXPECT_EQ(Scaled.Cx, 8.5);
+  EXPECT_EQ(C->Views[0].Pose.Fx, 10);
+  EXPECT_EQ(C->Notes, (std::vector<std::string>{
+                          "intrinsics of 1 camera scaled to their pictures: "
+                          "a1.png from 8x6 to 16x12"}));
+}
+
+TEST(Capture, AFileIsThePictureOfOneName) {
+  // a1.png is there for its own name: it does not stand for A1.PNG, too.
+  SampleCapture S = sampleCapture(3);
+  S.Views[2].Name = "A1.PNG";
+  Folder Files = colmapTextOf(S);
+  Files.erase("images/A1.PNG");
+  const CaptureFolder F(Files);
+  const auto C = readCapture(F.path());
+  ASSERT_TRUE(C) << C.error().What;
+  EXPECT_EQ(C->Views.size(), 2U);
+  EXPECT_EQ(C->WithoutPicture, 1U);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ struct ColmapModel {
 /// Parses cameras.bin, images.bin, points3D.bin. Errors: unsupported camera
 /// models (by name), invalid rotations, images of unknown cameras, values that
 /// are not finite, files whose length does not match their content, models
-/// without an image or a point.
+/// without an image.
 Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files);
 
 /// The same for cameras.txt, images.txt, points3D.txt; errors name the line.

@@ -1,6 +1,7 @@
 #include "capture/ColmapCapture.h"
 
 #include "capture/Colmap.h"
+#include "capture/Transforms.h"
 #include "vorion/support/File.h"
 
 namespace vorion::splat {
@@ -15,11 +16,30 @@ struct ReadModel {
   std::string Cameras, Images;
 };
 
+/// The points of a model that has them as a point cloud.
+constexpr const char *PlyName = "points3D.ply";
+
+std::vector<std::string> namesOf(const std::vector<CaptureView> &Views) {
+  std::vector<std::string> Names;
+  Names.reserve(Views.size());
+  for (const CaptureView &V : Views)
+    Names.push_back(V.Pose.Name);
+  return Names;
+}
+
+/// The mask of \p Picture, which is in \p Pictures.
+std::string maskBeside(const fs::path &Pictures, const fs::path &Picture) {
+  return maskOf(Pictures.parent_path() / "masks",
+                Picture.lexically_relative(Pictures));
+}
+
 Expected<ReadModel> readModel(const Location &F, bool PosesOnly) {
   const bool Text = F.Format == CaptureFormat::ColmapText;
   const char *Ending = Text ? ".txt" : ".bin";
   ColmapFiles Files;
-  Files.PosesOnly = PosesOnly;
+  // Without COLMAP's own points there may be those of a PLY, or none.
+  const std::string PointsName = std::string("points3D") + Ending;
+  Files.PosesOnly = PosesOnly || !fileExists(F.Model / PointsName);
   std::vector<std::byte> Contents[3];
   const struct {
     const char *Name;
@@ -27,7 +47,7 @@ Expected<ReadModel> readModel(const Location &F, bool PosesOnly) {
   } Parts[] = {{"cameras", Files.Cameras},
                {"images", Files.Images},
                {"points3D", Files.Points}};
-  for (std::size_t I = 0; I < (PosesOnly ? 2U : 3U); ++I) {
+  for (std::size_t I = 0; I < (Files.PosesOnly ? 2U : 3U); ++I) {
     Parts[I].To.Where = (F.Model / (std::string(Parts[I].Name) + Ending))
                             .lexically_normal()
                             .string();
@@ -40,6 +60,16 @@ Expected<ReadModel> readModel(const Location &F, bool PosesOnly) {
   auto Model = Text ? parseColmapText(Files) : parseColmapBinary(Files);
   if (!Model)
     return Model.error();
+  if (const fs::path Cloud = F.Model / PlyName;
+      !PosesOnly && Files.PosesOnly && fileExists(Cloud)) {
+    const auto Content = readRegularFile(Cloud.string());
+    if (!Content)
+      return Content.error();
+    auto Points = parsePointCloud(Cloud.string(), *Content);
+    if (!Points)
+      return Points.error();
+    Model->Points = std::move(*Points);
+  }
   return ReadModel{std::move(*Model), Files.Cameras.Where, Files.Images.Where};
 }
 
@@ -58,9 +88,15 @@ Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
       return Straight;
     if (auto Inside = checkInside(Read->Images, V.Pose.Name, Options); !Inside)
       return Inside;
-    V.Picture = (F.Pictures / V.Pose.Name).string();
+  }
+  if (!F.Note.empty())
+    C.Notes.push_back(F.Note);
+  const auto [Folder, Files] = findPictures(pictureFolders(F, Options.Images),
+                                            namesOf(C.Views), C.Notes);
+  for (std::size_t I = 0; I < C.Views.size(); ++I) {
+    C.Views[I].Picture = Files[I].string();
     if (Options.Masks == MaskSource::Files)
-      V.Mask = maskOf(F.Pictures.parent_path() / "masks", V.Pose.Name);
+      C.Views[I].Mask = maskBeside(Folder, Files[I]);
   }
   return leaveOutSome(C.Views, C);
 }
@@ -84,9 +120,13 @@ void addColmapFiles(const Location &F, std::vector<fs::path> &To) {
   const auto Read = readModel(F, /*PosesOnly=*/true);
   if (!Read)
     return;
-  for (const CaptureView &V : Read->Model.Views) {
-    To.push_back(F.Pictures / V.Pose.Name);
-    To.emplace_back(maskOf(F.Pictures.parent_path() / "masks", V.Pose.Name));
+  To.push_back(F.Model / PlyName);
+  std::vector<std::string> Notes;
+  const auto [Folder, Files] =
+      findPictures(pictureFolders(F, {}), namesOf(Read->Model.Views), Notes);
+  for (const fs::path &Picture : Files) {
+    To.push_back(Picture);
+    To.emplace_back(maskBeside(Folder, Picture));
   }
 }
 

@@ -17,7 +17,6 @@ constexpr ColmapLens WithoutLens[] = {
     {7, "FOV", 2, 1},
     {10, "THIN_PRISM_FISHEYE", 2, 8},
     {11, "RAD_TAN_THIN_PRISM_FISHEYE", 2, 12},
-    {16, "EUCM", 2, 2},
 };
 
 bool allFinite(std::span<const double> Values) {
@@ -91,6 +90,10 @@ static Expected<Success> seeThrough(const ColmapCameraModel &Kind,
                      "length and a finite principal point"};
   CameraModel Optics{Kind.Lens};
   std::ranges::copy(Parameters.subspan(Focals + 2), Optics.K.begin());
+  const std::string_view Range = Kind.Lens->ExpectedCoefficients(Optics.K);
+  if (!Range.empty())
+    return Error{"", fmt::format("coefficients of {} out of range, expected {}",
+                                 Kind.Name, Range)};
   V.Optics = simplified(Optics);
   return Success{};
 }
@@ -159,12 +162,11 @@ Expected<Success> ColmapBuilder::addPoint(const std::string &Where,
                                           std::span<const int64_t> Track) {
   CapturePoints &P = Model.Points;
   for (const double V : Position) {
-    const auto Rounded = static_cast<float>(V);
-    if (!std::isfinite(Rounded))
+    if (!std::isfinite(static_cast<float>(V)))
       return Error{Where, fmt::format("point {} has a NaN or an infinity, "
                                       "expected finite coordinates",
                                       P.size())};
-    P.Positions.push_back(Rounded);
+    P.Positions.push_back(V);
   }
   const auto Own = static_cast<uint32_t>(P.size());
   for (const int64_t Id : Track)
@@ -180,9 +182,6 @@ Expected<Success> ColmapBuilder::addPoint(const std::string &Where,
 Expected<ColmapModel> ColmapBuilder::finish(const ColmapFiles &Files) {
   if (Model.Views.empty())
     return Error{Files.Images.Where, "no image, expected at least one"};
-  if (!Files.PosesOnly && Model.Points.size() == 0)
-    return Error{Files.Points.Where,
-                 "no points, expected the initial points of training"};
   return std::move(Model);
 }
 

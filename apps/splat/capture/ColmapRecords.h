@@ -49,7 +49,7 @@ public:
                              const std::array<double, 3> &Position,
                              const std::array<uint8_t, 3> &Colour,
                              std::span<const int64_t> Track);
-  /// The model, which must have an image and a point.
+  /// The model, which must have an image.
   Expected<ColmapModel> finish(const ColmapFiles &Files);
 
 private:

@@ -82,6 +82,57 @@ TEST(Photo, HugeClaimsAreRefused) {
   EXPECT_NE(P.error().What.find("bytes unpacked"), std::string::npos);
 }
 
+/// A 2x2 JPEG whose EXIF data have this orientation, in either byte order.
+std::string orientedJpeg(int Orientation, bool IsBig) {
+  const char Value = static_cast<char>(Orientation);
+  std::string Exif =
+      IsBig
+          ? std::string("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0", 19) +
+                Value + std::string(6, '\0')
+          : std::string("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0", 18) +
+                Value + std::string(7, '\0');
+  Exif = std::string("Exif\0\0", 6) + Exif;
+  std::string File = jpegOf(2, 2, std::string(16, '\x60'));
+  return File.insert(2, std::string("\xff\xe1\0", 3) +
+                            static_cast<char>(Exif.size() + 2) + Exif);
+}
+
+TEST(Photo, OrientationIsThatOfItsExifData) {
+  for (int O = 1; O <= 8; ++O)
+    for (const bool IsBig : {false, true})
+      EXPECT_EQ(photoOrientation(bytesOf(orientedJpeg(O, IsBig))), O);
+  EXPECT_EQ(photoOrientation(bytesOf(orientedJpeg(9, false))), 1);
+  EXPECT_EQ(photoOrientation(bytesOf(jpegOf(2, 2, std::string(16, '\x60')))),
+            1);
+  const std::string Whole = orientedJpeg(6, true);
+  for (std::size_t Size = 0; Size < Whole.size(); ++Size) {
+    const int O = photoOrientation(bytesOf(Whole.substr(0, Size)));
+    EXPECT_TRUE(O == 1 || O == 6) << Size;
+  }
+}
+
+TEST(Photo, TurnedPicturesAreAsTheirOrientationSays) {
+  // Stored in rows: 1 2 3, 4 5 6.
+  Plane P;
+  P.Width = 3;
+  P.Height = 2;
+  for (int V = 1; V <= 6; ++V)
+    P.Rgba.insert(P.Rgba.end(), 4, std::byte(V));
+  const std::vector<int> Seen[] = {{1, 2, 3, 4, 5, 6}, {3, 2, 1, 6, 5, 4},
+                                   {6, 5, 4, 3, 2, 1}, {4, 5, 6, 1, 2, 3},
+                                   {1, 4, 2, 5, 3, 6}, {4, 1, 5, 2, 6, 3},
+                                   {6, 3, 5, 2, 4, 1}, {3, 6, 2, 5, 1, 4}};
+  for (int O = 1; O <= 8; ++O) {
+    const Plane T = turned(P, O);
+    EXPECT_EQ(T.Width, O < 5 ? 3U : 2U);
+    EXPECT_EQ(T.Height, O < 5 ? 2U : 3U);
+    for (std::size_t I = 0; I < 6; ++I)
+      EXPECT_EQ(static_cast<int>(T.at(I, 2)),
+                Seen[static_cast<std::size_t>(O) - 1][I])
+          << O << ' ' << I;
+  }
+}
+
 TEST(Photo, ShrinkingAveragesAreas) {
   Plane P;
   P.Width = 4;

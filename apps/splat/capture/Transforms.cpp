@@ -41,7 +41,8 @@ private:
   /// The value of \p Key in the frame or else in the file.
   const Json *find(const Json &Frame, const char *Key) const {
     for (const Json *Object : {&Frame, &Document})
-      if (const auto It = Object->find(Key); It != Object->end())
+      if (const auto It = Object->find(Key);
+          It != Object->end() && !It->is_null())
         return &*It;
     return nullptr;
   }
@@ -220,7 +221,8 @@ Expected<TransformsFile> TransformsReader::read() {
     V.Pose.Name = withoutDot(Path->get<std::string>());
     View = "frame " + printable(V.Pose.Name);
     V.Optics = readLens(Frame);
-    if (const auto Mask = Frame.find("mask_path"); Mask != Frame.end()) {
+    if (const auto Mask = Frame.find("mask_path");
+        Mask != Frame.end() && !Mask->is_null()) {
       if (Mask->is_string())
         V.Mask = Mask->get<std::string>();
       else
@@ -255,6 +257,62 @@ Expected<TransformsFile> parseTransforms(const std::string &Where, Bytes File) {
   return TransformsReader(Where, *Document).read();
 }
 
+static uint8_t colourByte(double Value) {
+  return static_cast<uint8_t>(
+      std::lround(255 * std::clamp(std::isnan(Value) ? 0 : Value, 0.0, 1.0)));
+}
+
+/// The colours of points, three bytes each: of bytes, words, or floats of 0 to
+/// 1 (or to 255, if one is above 1), of Gaussians, or grey.
+static Expected<std::vector<uint8_t>> coloursOf(const std::string &Where,
+                                                const PlyFile &File,
+                                                const PlyElement &Vertex) {
+  constexpr uint8_t Grey = 128;
+  constexpr double ShOfDegree0 = 0.28209479177387814; // Y_00
+  const std::vector<std::string> Known[] = {
+      {"red", "green", "blue"},
+      {"diffuse_red", "diffuse_green", "diffuse_blue"},
+      {"r", "g", "b"},
+      {"f_dc_0", "f_dc_1", "f_dc_2"}};
+  std::vector<uint8_t> Colours(3 * Vertex.Count, Grey);
+  const auto Names = std::ranges::find_if(
+      Known, [&](const auto &Of) { return Vertex.find(Of[0]); });
+  if (Names == std::end(Known))
+    return Colours;
+  const auto Fill = [&](auto At) {
+    for (std::size_t I = 0; I < Colours.size(); ++I)
+      Colours[I] = At(File.row(Vertex, I / 3), I % 3);
+    return Colours;
+  };
+  const PlyType Type = Vertex.find(Names->front())->Type;
+  if (Type == PlyType::UChar || Type == PlyType::UShort) {
+    const auto At = Vertex.offsets(Where, *Names, Type);
+    if (!At)
+      return At.error();
+    return Fill([&](Bytes Row, std::size_t C) {
+      return Type == PlyType::UChar
+                 ? load<uint8_t>(Row, (*At)[C])
+                 : colourByte(load<uint16_t>(Row, (*At)[C]) / 65535.0);
+    });
+  }
+  const auto At = Vertex.reals(Where, *Names);
+  if (!At)
+    return At.error();
+  if (Names->front() == "f_dc_0")
+    return Fill([&](Bytes Row, std::size_t C) {
+      return colourByte(0.5 + ShOfDegree0 * loadReal(Row, (*At)[C]));
+    });
+  double Most = 0;
+  Fill([&](Bytes Row, std::size_t C) {
+    Most = std::max(Most, loadReal(Row, (*At)[C]));
+    return Grey;
+  });
+  const double Unit = Most > 1 ? 255 : 1;
+  return Fill([&](Bytes Row, std::size_t C) {
+    return colourByte(loadReal(Row, (*At)[C]) / Unit);
+  });
+}
+
 Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {
   const auto Read = readPly(Where, File);
   if (!Read)
@@ -266,20 +324,19 @@ Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {
   const auto Position = Vertex->reals(Where, {"x", "y", "z"});
   if (!Position)
     return Position.error();
-  const auto Colour =
-      Vertex->offsets(Where, {"red", "green", "blue"}, PlyType::UChar);
-  if (!Colour)
-    return Colour.error();
+  auto Colours = coloursOf(Where, *Read, *Vertex);
+  if (!Colours)
+    return Colours.error();
   CapturePoints P;
+  P.Colours = std::move(*Colours);
   for (std::size_t I = 0; I < Vertex->Count; ++I) {
     const Bytes Row = Read->row(*Vertex, I);
     for (const PlyReal At : *Position)
-      if (!std::isfinite(P.Positions.emplace_back(loadReal(Row, At))))
+      if (!std::isfinite(
+              static_cast<float>(P.Positions.emplace_back(loadReal(Row, At)))))
         return Error{Where, fmt::format("point {} has a NaN or an infinity, "
                                         "expected finite coordinates",
                                         I)};
-    for (const std::size_t At : *Colour)
-      P.Colours.push_back(load<uint8_t>(Row, At));
   }
   return P;
 }

@@ -30,7 +30,9 @@ struct TransformsFile {
 /// frame.
 Expected<TransformsFile> parseTransforms(const std::string &Where, Bytes File);
 
-/// Reads points of a PLY with float x, y, z and uchar red, green, blue.
+/// Reads points of a PLY with float x, y, z. Their colours are red, green, blue
+/// (or diffuse_red and so on, or r, g, b) as bytes, words, or floats of 0 to 1,
+/// those of Gaussians (f_dc_0 and so on), or grey if there are none.
 Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File);
 
 } // namespace vorion::splat

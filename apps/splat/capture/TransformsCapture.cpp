@@ -40,6 +40,21 @@ Expected<Success> setSizes(TransformsFile &T) {
   return Success{};
 }
 
+/// The pictures of \p T, a file in \p Folder.
+std::vector<fs::path> picturesOf(const fs::path &Folder,
+                                 const TransformsFile &T,
+                                 const std::string &Given,
+                                 std::vector<std::string> &Notes) {
+  std::vector<std::string> Names;
+  Names.reserve(T.Views.size());
+  for (const TransformsView &V : T.Views)
+    Names.push_back(V.Pose.Name);
+  return findPictures(
+             pictureFolders({CaptureFormat::Transforms, {}, Folder, {}}, Given),
+             Names, Notes)
+      .Files;
+}
+
 Expected<TransformsFile> transformsOf(const fs::path &File) {
   const auto Content = readRegularFile(File.string(), JsonLimits().Bytes);
   if (!Content)
@@ -55,13 +70,16 @@ Expected<Success> readTransforms(const fs::path &File, ViewSet Set,
   if (!T)
     return T.error();
   const fs::path Folder = File.parent_path();
-  for (TransformsView &V : T->Views) {
+  const std::vector<fs::path> Pictures =
+      picturesOf(Folder, *T, Options.Images, C.Notes);
+  for (std::size_t I = 0; I < T->Views.size(); ++I) {
+    TransformsView &V = T->Views[I];
     if (auto Straight = checkPinhole(File.string(), "frame", V, Options);
         !Straight)
       return Straight;
     if (auto Inside = checkInside(File.string(), V.Pose.Name, Options); !Inside)
       return Inside;
-    V.Picture = pictureOf(Folder, V.Pose.Name).string();
+    V.Picture = Pictures[I].string();
     if (Options.Masks != MaskSource::Files) {
       V.Mask.clear();
     } else if (V.Mask.empty()) {
@@ -109,12 +127,15 @@ Expected<Success> addTransformsCameras(const fs::path &File, LensOf Of,
   if (!T)
     return T.error();
   const fs::path Folder = File.parent_path();
-  for (TransformsView &V : T->Views) {
+  std::vector<std::string> Notes;
+  const std::vector<fs::path> Pictures = picturesOf(Folder, *T, {}, Notes);
+  for (std::size_t I = 0; I < T->Views.size(); ++I) {
+    TransformsView &V = T->Views[I];
     // Nothing outside the folder is opened for a size. Who draws has no
     // --allow-outside.
     if (!staysInside(V.Pose.Name) && !V.hasSize())
       return isOutside(File.string(), V.Pose.Name, "the keys w and h");
-    V.Picture = pictureOf(Folder, V.Pose.Name).string();
+    V.Picture = Pictures[I].string();
   }
   if (auto Sized = setSizes(*T); !Sized)
     return Sized;
@@ -134,8 +155,11 @@ void addTransformsFiles(const fs::path &File, std::vector<fs::path> &To) {
   if (!T)
     return;
   const fs::path Folder = File.parent_path();
-  for (const TransformsView &V : T->Views) {
-    const fs::path Picture = pictureOf(Folder, V.Pose.Name);
+  std::vector<std::string> Notes;
+  const std::vector<fs::path> Pictures = picturesOf(Folder, *T, {}, Notes);
+  for (std::size_t I = 0; I < T->Views.size(); ++I) {
+    const TransformsView &V = T->Views[I];
+    const fs::path &Picture = Pictures[I];
     To.push_back(Picture);
     To.push_back(V.Mask.empty()
                      ? fs::path(maskOf(Folder / "masks", Picture.filename()))

@@ -337,10 +337,49 @@ TEST(PointCloud, IsReadFromAPly) {
   const auto P = parsePointCloud("file", std::as_bytes(std::span(Ply)));
   ASSERT_TRUE(P) << P.error().What;
   EXPECT_EQ(P->size(), 2U);
-  EXPECT_EQ(P->Positions, (std::vector<float>{1, 2, 3, 1, 2, 3}));
+  EXPECT_EQ(P->Positions, (std::vector<double>{1, 2, 3, 1, 2, 3}));
   EXPECT_EQ(P->Colours, (std::vector<uint8_t>{1, 2, 255, 1, 2, 255}));
   const std::string NoRed = replaced(Ply, "uchar red", "uchar rot");
-  EXPECT_FALSE(parsePointCloud("file", std::as_bytes(std::span(NoRed))));
+  const auto Grey = parsePointCloud("file", std::as_bytes(std::span(NoRed)));
+  ASSERT_TRUE(Grey) << Grey.error().What;
+  EXPECT_EQ(Grey->Colours, std::vector<uint8_t>(6, 128));
+}
+
+TEST(PointCloud, ColoursAreThoseOfAnyType) {
+  const struct {
+    const char *Properties, *Row;
+    std::vector<uint8_t> Colours;
+  } Cases[] = {
+      {"float red\nproperty float green\nproperty float blue",
+       "0 0.2 1",
+       {0, 51, 255}},
+      {"double red\nproperty double green\nproperty double blue",
+       "0 128 255",
+       {0, 128, 255}},
+      {"ushort red\nproperty ushort green\nproperty ushort blue",
+       "0 257 65535",
+       {0, 1, 255}},
+      {"uchar diffuse_red\nproperty uchar diffuse_green\nproperty uchar "
+       "diffuse_blue",
+       "1 2 3",
+       {1, 2, 3}},
+      {"uchar r\nproperty uchar g\nproperty uchar b", "1 2 3", {1, 2, 3}},
+      {"float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2",
+       "0 9 -9",
+       {128, 255, 0}},
+      {"float nx\nproperty float ny\nproperty float nz",
+       "0 1 0",
+       {128, 128, 128}},
+  };
+  for (const auto &[Properties, Row, Colours] : Cases) {
+    const std::string Ply =
+        std::string("ply\nformat ascii 1.0\nelement vertex 1\nproperty float "
+                    "x\nproperty float y\nproperty float z\nproperty ") +
+        Properties + "\nend_header\n1 2 3 " + Row + "\n";
+    const auto P = parsePointCloud("file", std::as_bytes(std::span(Ply)));
+    ASSERT_TRUE(P) << P.error().What;
+    EXPECT_EQ(P->Colours, Colours) << Properties;
+  }
 }
 
 } // namespace

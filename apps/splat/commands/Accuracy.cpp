@@ -112,7 +112,7 @@ Expected<Split> splitViews(const SweepPlan &P,
     if (std::none_of(P.Views.begin(), P.Views.end(),
                      [&](const Camera &C) { return C.Name == Name; }))
       return usage(fmt::format(
-          "--check {}: no such view, expected one of --views{}", Name,
+          "--check {}: no such view, expected one of --view{}", Name,
           didYouMean(Name, std::views::transform(P.Views, &Camera::Name))));
   for (const Camera &View : P.Views) {
     // Unless told, the last of several views checks.
@@ -236,7 +236,7 @@ std::vector<Camera> hostViews(const AccuracyArguments &A, const SweepPlan &P) {
   if (Views.size() == 1 && !hasOwnCameras(A)) {
     CameraArguments All = A.Cameras;
     All.Views = {"all"};
-    if (const auto Others = chooseCameras(All, Scene()))
+    if (const auto Others = chooseCameras(All, SceneFile()))
       for (const Camera &View : *Others)
         if (View.Name != P.Views.front().Name)
           Views.push_back(View);
@@ -361,13 +361,14 @@ Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
   addStudyOptions(App, A->Study, "point",
                   "the scene's or the capture's name and -accuracy");
+  const HelpGroup Group(App, "Study");
   App.add_flag("--energy", A->Energy,
                "Add energy as an objective (docs/energy.md)");
   const std::size_t First = App.get_options().size();
   addSceneOptions(App, A->Scene);
   App.get_option("scene")->required(false);
   addCameraOptions(App, A->Cameras, /*Several=*/true);
-  takesView(App.add_option("--views,--view", A->Cameras.Views,
+  takesView(App.add_option("--view", A->Cameras.Views,
                            "Views to measure (default: all)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
@@ -402,7 +403,8 @@ Runner addAccuracy(CLI::App &App) {
     nameOutput("--out", A->Study.Folder,
                A->Train.Capture.empty() ? A->Scene.Path : A->Train.Capture,
                "-accuracy");
-    return run(*A, Machine);
+    auto Done = run(*A, Machine);
+    return Done ? writeStudyFigures(A->Study) : Done;
   };
 }
 

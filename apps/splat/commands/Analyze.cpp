@@ -12,6 +12,7 @@
 #include "io/Cameras.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
+#include "page/VerdictPage.h"
 #include "picture/Options.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -38,7 +39,8 @@ using Json = nlohmann::ordered_json;
 struct AnalyzeArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
-  std::string View, OrderBeside, JsonFile, Plots;
+  std::string View, OrderBeside, JsonFile;
+  PageFiles Page;
   int Width = 0; ///< of the picture, px; 0: the view's
   Rules Convention = Rules::Inria;
   Support Reach = Support::Square3;
@@ -183,12 +185,15 @@ struct AnalyzedCameras {
   std::optional<Camera> Beside;
 };
 
-Expected<AnalyzedCameras> camerasOf(AnalyzeArguments &A, const Scene &S) {
+Expected<AnalyzedCameras> camerasOf(AnalyzeArguments &A, SceneFile &S) {
   if (!A.View.empty())
     A.Cameras.Views = {A.View};
-  const auto Chosen = chooseCameras(A.Cameras, S);
+  std::optional<float> Near;
+  const auto Chosen = camerasToDraw(A.Cameras, S, A.Convention, Near);
   if (!Chosen)
     return Chosen.error();
+  A.Options = toReference(S.DrawnAs);
+  A.Options.Near = double{Near.value_or(0)};
   AnalyzedCameras C{Chosen->front(), std::nullopt};
   if (A.OrderBeside.empty())
     return C;
@@ -216,22 +221,50 @@ std::string sceneName(const std::string &Path) {
   return (P.has_filename() ? P : P.parent_path()).filename().string();
 }
 
-Expected<Success> writePlots(const AnalyzeArguments &A,
-                             const InputHashes &Hashes, const Camera &C,
-                             const Analysis &R) {
-  const std::vector<std::string> Made = {
-      madeBy(),
-      fmt::format("scene {}, fnv1a64 {}; cameras {}, fnv1a64 {}", A.Scene.Path,
-                  Hashes.Scene, A.Cameras.File, Hashes.Cameras)};
-  for (auto &[Name, Plot] :
-       chartsOf(R, sceneName(A.Scene.Path) + ", " + C.Name)) {
-    Plot.Made = Made;
-    if (auto Written = writeFileAtomically(
-            fmt::format("{}-{}.svg", A.Plots, Name), svgOf(Plot));
-        !Written)
-      return Written;
-  }
-  return Success{};
+/// The counts by tile size.
+AnswerTable tableOf(const Analysis &R) {
+  AnswerTable T{"Counts by tile size", "", {"tile size, pixels"}, {}};
+  for (const int Size : AnalyzedTiles)
+    T.Columns.push_back(std::to_string(Size));
+  const auto Row = [&T](std::string Name, const auto &Values,
+                        const auto &Text) {
+    std::vector<std::string> Cells{std::move(Name)};
+    for (const auto &V : Values)
+      Cells.push_back(Text(V));
+    T.Rows.push_back(std::move(Cells));
+  };
+  for (std::size_t K = 0; K < AnalyzedSupports.size(); ++K)
+    Row(fmt::format("invocations, {}", name(AnalyzedSupports[K])),
+        R.BySupport[K], [](uint64_t Count) { return std::to_string(Count); });
+  Row("entries per tile, mean", R.Lists,
+      [](const ListStatistics &L) { return fmt::format("{:.1f}", L.Mean); });
+  Row("entries per tile, maximum", R.Lists,
+      [](const ListStatistics &L) { return std::to_string(L.Longest); });
+  for (const std::size_t Percent : {25, 50, 75, 100})
+    Row(fmt::format("occluded at {} %, %", Percent), R.Lists,
+        [Percent](const ListStatistics &L) {
+          return fmt::format("{:.1f}", 100 * L.Occluded[Percent]);
+        });
+  return T;
+}
+
+std::string pageOf(const AnalyzeArguments &A, const InputHashes &Hashes,
+                   const Camera &C, const Analysis &R) {
+  VerdictPage Page{
+      "Workload of a view",
+      fmt::format("{} of {}: {} seen, {} blends, {} rules, support {}.",
+                  printable(C.Name), sceneName(A.Scene.Path),
+                  counted(R.Visible, "Gaussian"), R.Blends, name(A.Convention),
+                  name(A.Reach)),
+      {},
+      {},
+      {tableOf(R)},
+      {madeBy(),
+       fmt::format("scene {}, fnv1a64 {}; cameras {}, fnv1a64 {}", A.Scene.Path,
+                   Hashes.Scene, A.Cameras.File, Hashes.Cameras)}};
+  for (auto &[Name, Plot] : chartsOf(R))
+    Page.Charts.push_back(std::move(Plot));
+  return verdictPageOf(Page);
 }
 
 /// The same view in another resolution.
@@ -245,35 +278,35 @@ void resize(Camera &C, int Width) {
 }
 
 Expected<Success> run(AnalyzeArguments A) {
-  for (const auto &Checked :
-       {checkJsonName(A.JsonFile), checkPrefix("--plots", A.Plots)})
+  for (const auto &Checked : {checkJsonName(A.JsonFile), checkPage(A.Page)})
     if (!Checked)
       return Checked;
   if (auto Claimed = claimOutputs(
-          {{"--json", A.JsonFile}},
+          {{"--json", A.JsonFile}, {"--html", A.Page.Html}},
           InputFiles().scene(A.Scene.Path).cameras(A.Cameras.File).named());
       !Claimed)
     return Claimed;
-  const auto File = loadScene(A.Scene);
+  auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
-  const auto Cameras = camerasOf(A, File->Gaussians);
+  const auto Cameras = camerasOf(A, *File);
   if (!Cameras)
     return Cameras.error();
   Camera C = Cameras->View;
   if (A.Width != 0)
     resize(C, A.Width);
-  A.Options = toReference(File->DrawnAs);
   A.Options.Rule = toReference(A.Convention);
   A.Options.Reach = toReference(A.Reach);
-  const Analysis R = analyze(toReference<float>(File->Gaussians),
-                             toReference<float>(C), A.Options);
+  const Scene &S = File->Gaussians;
+  const Analysis R =
+      analyze(toReference<float>(S),
+              toReference<float>(relativeTo(C, S.Origin)), A.Options);
   std::optional<OrderAnalysis> Order;
   if (Cameras->Beside)
-    Order = analyzeOrder(toReference<double>(File->Gaussians),
-                         toReference<double>(C),
-                         toReference<double>(*Cameras->Beside), A.Options);
-  if (!A.JsonFile.empty() || !A.Plots.empty()) {
+    Order = analyzeOrder(
+        toReference<double>(S), toReference<double>(relativeTo(C, S.Origin)),
+        toReference<double>(relativeTo(*Cameras->Beside, S.Origin)), A.Options);
+  if (!A.JsonFile.empty() || A.Page.any()) {
     const auto Hashes = hashInputs(A);
     if (!Hashes)
       return Hashes.error();
@@ -282,9 +315,8 @@ Expected<Success> run(AnalyzeArguments A) {
               A.JsonFile, jsonReport(A, *File, *Hashes, C, R, Order));
           !Written)
         return Written;
-    if (!A.Plots.empty())
-      if (auto Written = writePlots(A, *Hashes, C, R); !Written)
-        return Written;
+    if (auto Written = writePage(A.Page, pageOf(A, *Hashes, C, R)); !Written)
+      return Written;
   }
   printOut("{}", textReport(A, C, R));
   if (Order)
@@ -310,9 +342,7 @@ Runner addAnalyze(CLI::App &App) {
       ->check(isBetween(1, MaxImageSize));
   writesFile(App.add_option("--json", A->JsonFile, "Write all counts"),
              {".json"});
-  writesFiles(App.add_option(
-      "--plots", A->Plots,
-      "Write PREFIX-invocations.svg, -occlusion.svg and -lists.svg"));
+  addPageOptions(App, A->Page, "Write a page with charts of the counts");
   addChoice(App, "--rules", A->Convention, {Rules::Inria, Rules::Gsplat},
             "Rendering convention");
   addChoice(

@@ -4,7 +4,7 @@
 #include "cameras/GoodView.h"
 #include "cameras/Motion.h"
 #include "commands/Usage.h"
-#include "picture/Options.h"
+#include "picture/SceneUnit.h"
 #include "vorion/support/CommandLine.h"
 
 #include <cstdio>
@@ -51,7 +51,7 @@ std::optional<Vector> givenUp(const CameraArguments &A,
 /// What the cameras go around, and about which axis.
 std::pair<Vector, Vector> pivotOf(const CameraArguments &A,
                                   const std::vector<Camera> &Cameras,
-                                  const Scene &S) {
+                                  const SceneFile &S) {
   const std::optional<Vector> Up = givenUp(A, Cameras);
   std::optional<Vector> Centre;
   if (!A.File.empty())
@@ -66,6 +66,7 @@ std::pair<Vector, Vector> pivotOf(const CameraArguments &A,
 } // namespace
 
 void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
+  const HelpGroup Group(App, "Cameras");
   takesFile(App.add_option(
                 "--cameras", A.File,
                 "Views: INRIA's cameras.json, transforms.json, nerfstudio's "
@@ -97,14 +98,14 @@ void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
   }
   App.add_option("--up", A.Up,
                  fmt::format("Up direction of the scene, for {} and for an "
-                             "automatic view (default: that of the cameras, or "
-                             "estimated from the scene's flat Gaussians)",
+                             "automatic view (default: that of the cameras, of "
+                             "the file, or estimated from the scene)",
                              Several ? "--orbit" : "navigation"))
       ->check(isOneOf({"x", "-x", "y", "-y", "z", "-z"}));
 }
 
 Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
-                                         const Scene &S) {
+                                         const SceneFile &S) {
   const auto Size = parseSize(A.Size.empty() ? DefaultSize : A.Size);
   if (!Size)
     return Size.error();
@@ -113,8 +114,8 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
     if (!asksForAll(A))
       return usage("--view names a camera, expected --cameras");
     // The farther near plane of the two rules.
-    Cameras = {goodView(S, focusOf(S, parseUp(A.Up)), Size->first, Size->second,
-                        nearLimit(Rules::Inria))};
+    Cameras = {goodView(S.Gaussians, focusOf(S, parseUp(A.Up)), Size->first,
+                        Size->second, nearLimit(Rules::Inria))};
   } else {
     auto Read = readCameraFile(A.File, A.Distorted ? LensOf::Photograph
                                                    : LensOf::Undistorted);
@@ -145,23 +146,39 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
 }
 
 Vector upOf(const CameraArguments &A, const std::vector<Camera> &Cameras,
-            const Scene &S) {
+            const SceneFile &S) {
   const auto Given = givenUp(A, Cameras);
   return Given ? *Given : focusOf(S).Up;
 }
 
-Expected<std::vector<Camera>> chooseCameras(const CameraArguments &A,
-                                            const Scene &S) {
-  auto All = allCameras(A, S);
-  if (!All || A.Orbit != 0 || A.Frames != 0)
+/// Those of \p All, the cameras of \p A, that --view selects.
+static Expected<std::vector<Camera>> selected(const CameraArguments &A,
+                                              std::vector<Camera> All) {
+  if (A.Orbit != 0 || A.Frames != 0)
     return All;
   if (A.Views.empty()) {
-    All->resize(1);
+    All.resize(1);
     return All;
   }
   if (asksForAll(A))
     return All;
-  return selectCameras(A.File, *All, A.Views);
+  return selectCameras(A.File, All, A.Views);
+}
+
+Expected<std::vector<Camera>> chooseCameras(const CameraArguments &A,
+                                            const SceneFile &S) {
+  auto All = allCameras(A, S);
+  return All ? selected(A, std::move(*All)) : All;
+}
+
+Expected<std::vector<Camera>> camerasToDraw(const CameraArguments &A,
+                                            SceneFile &S, Rules Convention,
+                                            std::optional<float> &Near) {
+  auto All = allCameras(A, S);
+  if (!All)
+    return All;
+  prepareToDraw(S.Gaussians, *All, Convention, Near);
+  return selected(A, std::move(*All));
 }
 
 } // namespace vorion::splat

@@ -3,9 +3,11 @@
 
 #include "cameras/Vector.h"
 #include "io/Cameras.h"
-#include "scene/Scene.h"
+#include "picture/Options.h"
+#include "scene/SceneFile.h"
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,17 +41,23 @@ void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several);
 /// The cameras of \p A that --view selects. Without --cameras, an automatic
 /// view of \p S.
 Expected<std::vector<Camera>> chooseCameras(const CameraArguments &A,
-                                            const Scene &S);
+                                            const SceneFile &S);
 
 /// All cameras of the file or of the motion, or the automatic view. --view
 /// selects the start of a motion, or the views along it.
 Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
-                                         const Scene &S);
+                                         const SceneFile &S);
+
+/// chooseCameras() for pictures of \p S, which is measured from an origin near
+/// it if needed (\c recentre()). \p Near, if empty, follows the unit of a scene
+/// that all cameras of the file see from less than 1 (SceneUnit.h).
+Expected<std::vector<Camera>> camerasToDraw(const CameraArguments &A,
+                                            SceneFile &S, Rules Convention,
+                                            std::optional<float> &Near);
 
 /// The up direction of \p S, a unit vector: that of --up; otherwise that of \p
-/// Cameras if they are from a file; otherwise estimated from the scene's flat
-/// Gaussians.
+/// Cameras if they are from a file; otherwise that of focusOf().
 Vector upOf(const CameraArguments &A, const std::vector<Camera> &Cameras,
-            const Scene &S);
+            const SceneFile &S);
 
 } // namespace vorion::splat

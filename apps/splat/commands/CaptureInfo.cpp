@@ -47,13 +47,14 @@ Range boundsOf(const CapturePoints &P, std::size_t K) {
 struct Facts {
   Range Width, Height, FocalX, FocalY;
   CameraRing Ring;
+  double Extent;
 
   explicit Facts(const Capture &C)
       : Width(rangeOf(C, [](const Camera &P) { return P.Width; })),
         Height(rangeOf(C, [](const Camera &P) { return P.Height; })),
         FocalX(rangeOf(C, [](const Camera &P) { return P.Fx; })),
         FocalY(rangeOf(C, [](const Camera &P) { return P.Fy; })),
-        Ring(cameraRing(C)) {}
+        Ring(cameraRing(C)), Extent(sceneExtent(C)) {}
 };
 
 std::string textOf(const std::string &Path, const Capture &C) {
@@ -66,9 +67,7 @@ std::string textOf(const std::string &Path, const Capture &C) {
       fmt::format("{}: {} capture\n{}, {} of them held out ({})\n",
                   escaped(Path), name(C.Format),
                   counted(C.Views.size(), "view"), C.heldOut(), C.HeldOutBy);
-  if (C.WithoutPicture > 0)
-    Text += fmt::format("skipped      {} without a picture\n",
-                        counted(C.WithoutPicture, "view"));
+  Text += readerLines(C.Notes, C.WithoutPicture);
   Text += fmt::format("pictures     {} x {} pixels\n", Span(F.Width),
                       Span(F.Height));
   Text += fmt::format("focal length x {}, y {} pixels\n", Span(F.FocalX),
@@ -86,12 +85,19 @@ std::string textOf(const std::string &Path, const Capture &C) {
   Text += fmt::format("cameras      within {:.6g} of ({:.6g}, {:.6g}, {:.6g}), "
                       "extent {:.6g}\n",
                       F.Ring.Radius, F.Ring.Centre[0], F.Ring.Centre[1],
-                      F.Ring.Centre[2], F.Ring.extent());
-  if (C.Points.size() == 0)
+                      F.Ring.Centre[2], F.Extent);
+  if (C.Points.Origin != WorldPoint{})
+    Text +=
+        fmt::format("frame        training measures from ({:.9g}, {:.9g}, "
+                    "{:.9g}), because fp32 has too few digits here\n",
+                    C.Points.Origin[0], C.Points.Origin[1], C.Points.Origin[2]);
+  if (C.Points.size() == 0) {
+    const RandomCube Cube = randomCube(C);
     return Text +
            fmt::format("points       none: training starts from random points "
-                       "around the origin, seen by {}\n",
-                       counted(viewsOfRandomPoints(C), "view"));
+                       "around {}, seen by {}\n",
+                       Cube.centreText(), counted(Cube.SeenBy, "view"));
+  }
   return Text + fmt::format("points       {}: x {}, y {}, z {}\n",
                             C.Points.size(), Span(boundsOf(C.Points, 0)),
                             Span(boundsOf(C.Points, 1)),
@@ -117,24 +123,36 @@ std::string jsonOf(const std::string &Path, const Capture &C) {
                  {"format", name(C.Format)},
                  {"held_out_by", C.HeldOutBy},
                  {"without_picture", C.WithoutPicture},
+                 {"notes", C.Notes},
                  {"distorted", C.distorted()},
                  {"photographs_alone", C.photographsAlone()},
                  {"points", C.Points.size()},
                  {"camera_centre", F.Ring.Centre},
                  {"camera_radius", F.Ring.Radius},
-                 {"extent", F.Ring.extent()},
+                 {"extent", F.Extent},
                  {"views", Views}});
   return jsonText(Report, 2) + "\n";
 }
 
 } // namespace
 
+std::string readerLines(std::span<const std::string> Notes,
+                        std::size_t WithoutPicture) {
+  std::string Text;
+  for (const std::string &Note : Notes)
+    Text += fmt::format("read         {}\n", Note);
+  if (WithoutPicture > 0)
+    Text += fmt::format("skipped      {} without a picture\n",
+                        counted(WithoutPicture, "view"));
+  return Text;
+}
+
 Expected<Success> describeCapture(const std::string &Path,
                                   const std::string &JsonFile,
-                                  bool AllowOutside) {
+                                  CaptureOptions Options) {
   // Photographs can be described through any lens.
-  const auto C = readCapture(
-      Path, {{}, AllowOutside, MaskSource::None, LensOf::Photograph});
+  Options.Pictures = LensOf::Photograph;
+  const auto C = readCapture(Path, Options);
   if (!C)
     return C.error();
   if (!JsonFile.empty())
@@ -146,6 +164,7 @@ Expected<Success> describeCapture(const std::string &Path,
 }
 
 void addMasksOption(CLI::App &App, MaskSource &Masks) {
+  const HelpGroup Group(App, "Photographs");
   addChoice(App, "--masks", Masks,
             {MaskSource::None, MaskSource::Alpha, MaskSource::Files},
             "Pixels that are masked out: none, transparent ones, or those that "
@@ -153,6 +172,7 @@ void addMasksOption(CLI::App &App, MaskSource &Masks) {
 }
 
 void addHoldOutOption(CLI::App &App, std::optional<unsigned> &Every) {
+  const HelpGroup Group(App, "Photographs");
   App.add_option("--hold-out", Every,
                  "Hold out every N-th view in order of names, 0: none "
                  "(default: as recorded in the capture, else 8)")
@@ -160,7 +180,18 @@ void addHoldOutOption(CLI::App &App, std::optional<unsigned> &Every) {
       ->check(isBetween(0U, 1000000U));
 }
 
+void addPlaceOptions(CLI::App &App, CaptureOptions &Options) {
+  const HelpGroup Group(App, "Photographs");
+  App.add_option("--images", Options.Images,
+                 "Folder of a capture's pictures, in the capture's folder or "
+                 "elsewhere; the intrinsics are scaled to the pictures "
+                 "(default: found)")
+      ->option_text("FOLDER");
+  addOutsideOption(App, Options.AllowOutside);
+}
+
 void addOutsideOption(CLI::App &App, bool &Allow) {
+  const HelpGroup Group(App, "Photographs");
   App.add_flag(
       "--allow-outside", Allow,
       "Allow a capture's pictures and points to be outside its folder");

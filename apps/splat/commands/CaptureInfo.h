@@ -5,7 +5,9 @@
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace vorion::splat {
@@ -14,10 +16,18 @@ namespace vorion::splat {
 /// is empty, writes it as JSON.
 Expected<Success> describeCapture(const std::string &Path,
                                   const std::string &JsonFile,
-                                  bool AllowOutside);
+                                  CaptureOptions Options);
 
-/// Declares --allow-outside (CaptureOptions), for all commands that read
-/// captures; \p Allow must outlive the parsing.
+/// Lines about what was matched in a capture (Capture::Notes), and about views
+/// that were skipped, for commands that read captures.
+std::string readerLines(std::span<const std::string> Notes,
+                        std::size_t WithoutPicture);
+
+/// Declares --images and --allow-outside (CaptureOptions), for commands that
+/// read captures; \p Options must outlive the parsing.
+void addPlaceOptions(CLI::App &App, CaptureOptions &Options);
+
+/// Declares --allow-outside alone; \p Allow must outlive the parsing.
 void addOutsideOption(CLI::App &App, bool &Allow);
 
 /// Declares --hold-out, for training and evaluation; \p Every must outlive the

@@ -24,6 +24,8 @@ Runner addExplore(CLI::App &App);
 Runner addEffects(CLI::App &App);
 Runner addTrain(CLI::App &App);
 Runner addEval(CLI::App &App);
+/// Makes a capture from photographs or a video.
+Runner addCapture(CLI::App &App);
 Runner addCompare(CLI::App &App);
 Runner addView(CLI::App &App);
 /// Repeats the command of a report, and compares the results.

@@ -1,6 +1,8 @@
 #include "commands/Compare.h"
 
 #include "commands/Commands.h"
+#include "commands/OutputFile.h"
+#include "commands/Usage.h"
 #include "io/Image.h"
 #include "vorion/support/CommandLine.h"
 
@@ -30,6 +32,9 @@ Runner addCompare(CLI::App &App) {
                    "Compare timing reports of `splat render --time --json` or "
                    "`vorion-sim --time --stats`");
   Times->excludes(Pairs);
+  CLI::Option *Trainings = App.add_flag(
+      "--trainings", A->Trainings, "Compare reports of `splat train --json`");
+  Trainings->excludes(Pairs)->excludes(Times);
   App.add_option(
          "--at-most", A->AtMost,
          "Exit with 1 if b is slower than a by more than this, in percent")
@@ -38,17 +43,21 @@ Runner addCompare(CLI::App &App) {
   App.add_flag("--across", A->Across,
                "Allow different machines or different work")
       ->needs(Times);
-  writesFile(
-      App.add_option("--html", A->Html,
-                     "Write a page that compares two frames, of one view each"),
-      {".html"})
-      ->needs(Times);
+  for (CLI::Option *O : addPageOptions(
+           App, A->Page,
+           "Write a page that compares two frames, of one view each, "
+           "or the curves of two trainings"))
+    O->excludes(Pairs);
   writesFile(App.add_option("--json", A->Json, "Write the scores as JSON"),
-             {".json"});
+             {".json"})
+      ->excludes(Trainings);
   const auto AddOfPictures = [&](const char *Flag, auto &Value,
                                  const char *Help) {
     // Pairs that differ anywhere fail, whatever the bounds on pictures.
-    App.add_option(Flag, Value, Help)->excludes(Pairs)->excludes(Times);
+    App.add_option(Flag, Value, Help)
+        ->excludes(Pairs)
+        ->excludes(Times)
+        ->excludes(Trainings);
   };
   AddOfPictures(
       "--mask", A->Mask,
@@ -65,8 +74,13 @@ Runner addCompare(CLI::App &App) {
       ->needs("--mask")
       ->check(isBetween(0.0, 100.0));
   return [A](const DeviceOptions &) {
+    if (A->Trainings)
+      return compareTrainings(*A);
     if (A->Times)
       return compareTimes(*A);
+    if (A->Page.any())
+      return Expected<Success>(
+          usage("--html and --figures: expected --times or --trainings"));
     return A->Pairs ? comparePairs(*A) : comparePictures(*A);
   };
 }

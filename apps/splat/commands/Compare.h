@@ -2,6 +2,7 @@
 /// device.
 #pragma once
 
+#include "page/Figures.h"
 #include "vorion/support/Expected.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,12 +13,14 @@ namespace vorion::splat {
 
 struct CompareArguments {
   std::string Reference, Picture; ///< expected and actual picture
-  std::string Mask, Json, Html;   ///< file names; empty for none
+  std::string Mask, Json;         ///< file names; empty for none
+  PageFiles Page;
   bool Pairs = false;
   std::optional<double> MinDb;       ///< outside the mask
   std::optional<double> MinDbAll;    ///< over all pixels
   std::optional<double> MaxDoubtful; ///< masked pixels, per cent
   bool Times = false;
+  bool Trainings = false;
   bool Across = false;          ///< also of other machines or workloads
   std::optional<double> AtMost; ///< maximum increase, per cent
 };
@@ -39,5 +42,9 @@ Expected<Success> comparePairs(const CompareArguments &A);
 /// Reports that are not comparable are an Error. A time beyond the bound is an
 /// Error (GuestFailed), returned after writing.
 Expected<Success> compareTimes(const CompareArguments &A);
+
+/// Prints the results of two trainings and the settings in which they differ,
+/// and writes a page with their curves if requested.
+Expected<Success> compareTrainings(const CompareArguments &A);
 
 } // namespace vorion::splat

@@ -43,8 +43,8 @@ Expected<Success> writeJson(const CompareArguments &A, const TimeFile &First,
   return writeFileAtomically(A.Json, jsonText(Report, 2) + "\n");
 }
 
-Expected<Success> writeHtml(const CompareArguments &A,
-                            const std::vector<TimeChange> &Changes) {
+Expected<Success> writeTimes(const CompareArguments &A,
+                             const std::vector<TimeChange> &Changes) {
   std::vector<TimeRun> Runs;
   for (const std::string &File : {A.Reference, A.Picture}) {
     auto Report = readJson<nlohmann::ordered_json>(File, "a time report");
@@ -53,19 +53,17 @@ Expected<Success> writeHtml(const CompareArguments &A,
     Runs.push_back({File, std::move(*Report), ""});
   }
   const auto Page = timePageOf(Runs, figuresOf(Changes));
-  return Page ? writeFileAtomically(A.Html, *Page)
-              : Expected<Success>(Page.error());
+  return Page ? writePage(A.Page, *Page) : Expected<Success>(Page.error());
 }
 
 } // namespace
 
 Expected<Success> compareTimes(const CompareArguments &A) {
-  for (const auto &Checked :
-       {checkJsonName(A.Json), checkEnding("--html", A.Html, {".html"})})
+  for (const auto &Checked : {checkJsonName(A.Json), checkPage(A.Page)})
     if (!Checked)
       return Checked;
   if (auto Claimed = claimOutputs(
-          {{"--json", A.Json}, {"--html", A.Html}},
+          {{"--json", A.Json}, {"--html", A.Page.Html}},
           {{"a time report", A.Reference}, {"a time report", A.Picture}});
       !Claimed)
     return Claimed;
@@ -82,8 +80,8 @@ Expected<Success> compareTimes(const CompareArguments &A) {
   if (!A.Json.empty())
     if (auto Written = writeJson(A, *First, *Second, Changes); !Written)
       return Written;
-  if (!A.Html.empty())
-    if (auto Written = writeHtml(A, Changes); !Written)
+  if (A.Page.any())
+    if (auto Written = writeTimes(A, Changes); !Written)
       return Written;
   if (!A.AtMost ||
       Second->Milliseconds <= First->Milliseconds * (1 + *A.AtMost / 100))

@@ -5,7 +5,9 @@
 #include "commands/SceneEdits.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
+#include "mesh/Mesh.h"
 #include "scene/Edit.h"
+#include "scene/LocalFrame.h"
 #include "scene/SceneWriter.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -20,6 +22,7 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +50,18 @@ void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
                                 D.Dilation
                                     ? fmt::format(" --dilation {}", *D.Dilation)
                                     : ""));
+  if (needsDoubles(S)) {
+    if (W.Lost.Position > 0)
+      printDiagnostic("splat", "warning", Path,
+                      fmt::format("the format has too few digits for these "
+                                  "coordinates, and moves Gaussians by up to "
+                                  "{:.2g}, expected .ply, or --translate to "
+                                  "the origin",
+                                  W.Lost.Position));
+    else
+      printOut("positions are doubles: fp32 has too few digits for these "
+               "coordinates\n");
+  }
   const struct {
     const char *Name;
     double Most;
@@ -65,11 +80,36 @@ void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
                                               fmt::join(Lost, ", ")));
 }
 
-/// Joins the scenes \p More with \p To, each read as the first was.
+/// The triangles of a file, for a `.glb`; the warnings are printed.
+Expected<Success> joinMesh(const std::string &Path, std::optional<Mesh> &To) {
+  auto Read = readMesh(Path);
+  if (!Read)
+    return Read.error();
+  for (const MeshWarning &W : Read->Warnings)
+    printDiagnostic("splat", "warning", W.Where, W.What);
+  if (To)
+    To->append(std::move(*Read));
+  else
+    To = std::move(*Read);
+  return Success{};
+}
+
+/// Joins the scenes \p More with \p To, each read as the first was. With
+/// \p Meshes a file may be a mesh, which is joined with that.
 Expected<Success> joinOthers(const SceneArguments &First,
                              const std::vector<std::string> &More,
-                             SceneFile &To) {
+                             SceneFile &To, std::optional<Mesh> *Meshes) {
   for (const std::string &Path : More) {
+    if (Meshes && !std::filesystem::is_directory(Path)) {
+      const auto Content = readFile(Path);
+      if (!Content)
+        return Content.error();
+      if (isMeshFile(*Content)) {
+        if (auto Joined = joinMesh(Path, *Meshes); !Joined)
+          return Joined;
+        continue;
+      }
+    }
     SceneArguments Other = First;
     Other.Path = Path;
     auto Read = loadScene(Other);
@@ -80,6 +120,9 @@ Expected<Success> joinOthers(const SceneArguments &First,
                          "(antialiased, dilation), expected --antialiased or "
                          "--no-antialiased, and --dilation, for all"};
     To.Dropped += Read->Dropped;
+    if (Meshes && Read->Meshes > 0)
+      if (auto Joined = joinMesh(Path, *Meshes); !Joined)
+        return Joined;
     join(To.Gaussians, std::move(Read->Gaussians));
   }
   return Success{};
@@ -137,7 +180,7 @@ Expected<Success> run(const ConvertArguments &A) {
   InputFiles Inputs;
   Inputs.scene(A.Scene.Path).file("the scene", IndexOf(A.Scene.Path));
   for (const std::string &Path : A.More) {
-    const std::string Name = "the scene " + printable(Path);
+    const std::string Name = "the scene " + escaped(Path);
     Inputs.scene(Path, Name).file(Name, IndexOf(Path));
   }
   if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--json", A.JsonFile}},
@@ -151,11 +194,28 @@ Expected<Success> run(const ConvertArguments &A) {
       return Of.error();
     Hashed = std::move(*Of);
   }
-  auto File = loadScene(A.Scene);
+  // Of the formats that are written only this one has meshes.
+  const bool HasMeshes = A.Output.ends_with(".glb");
+  SceneArguments First = A.Scene;
+  First.KeepsMeshes = HasMeshes;
+  auto File = loadScene(First);
   if (!File)
     return File.error();
-  if (auto Joined = joinOthers(A.Scene, A.More, *File); !Joined)
+  std::optional<Mesh> Triangles;
+  if (HasMeshes && File->Meshes > 0)
+    if (auto Joined = joinMesh(A.Scene.Path, Triangles); !Joined)
+      return Joined;
+  if (auto Joined =
+          joinOthers(First, A.More, *File, HasMeshes ? &Triangles : nullptr);
+      !Joined)
     return Joined;
+  const SceneEdits &E = A.Edits;
+  if (Triangles && (!A.Scene.Axes.empty() || !E.Translate.empty() ||
+                    !E.Rotate.empty() || E.Scale))
+    return Error{"",
+                 "--axes, --translate, --rotate and --scale move no triangles, "
+                 "expected none of them with a mesh",
+                 ExitCode::Usage};
   const std::size_t Read = File->Gaussians.size();
   const auto Changes = editScene(File->Gaussians, A.Edits);
   if (!Changes)
@@ -165,7 +225,11 @@ Expected<Success> run(const ConvertArguments &A) {
   if (Changes->Reordered)
     printOut("reordered {} of {} Gaussians along the Morton curve\n",
              *Changes->Reordered, File->Gaussians.size());
-  const auto Written = writeScene(A.Output, File->Gaussians, File->DrawnAs);
+  const auto Written =
+      writeScene(A.Output, File->Gaussians, File->DrawnAs, [&](GltfWriter &To) {
+        if (Triangles)
+          addMesh(To, *Triangles);
+      });
   if (!Written)
     return Written.error();
   if (!A.JsonFile.empty())
@@ -174,8 +238,10 @@ Expected<Success> run(const ConvertArguments &A) {
             jsonReport(std::move(Hashed), *File, Read, *Changes, *Written));
         !Said)
       return Said;
-  printOut("{}: {}, SH degree {}{}\n", escaped(A.Output),
-           counted(File->Gaussians.size(), "Gaussian"), Written->ShDegree,
+  printOut("{}: {}{}, SH degree {}{}\n", escaped(A.Output),
+           counted(File->Gaussians.size(), "Gaussian"),
+           Triangles ? ", " + counted(Triangles->triangles(), "triangle") : "",
+           Written->ShDegree,
            File->DrawnAs.Antialiased ? ", trained antialiased" : "");
   printLoss(A.Output, *Written, File->Gaussians, File->DrawnAs);
   return Success{};
@@ -186,13 +252,15 @@ Expected<Success> run(const ConvertArguments &A) {
 Runner addConvert(CLI::App &App) {
   auto A = std::make_shared<ConvertArguments>();
   addSceneOptions(App, A->Scene);
-  takesFile(
-      App.add_option("more", A->More, "Further scenes, appended to the first"));
+  takesFile(App.add_option("more", A->More,
+                           "Further scenes, appended to the first; for a .glb "
+                           "also meshes (.obj, .ply, .glb, .gltf)"));
   writesFile(
       App.add_option(
           "-o,--output", A->Output,
           fmt::format("Scene to write; the file extension selects the format: "
-                      "{} (.ply is INRIA's PLY, which is lossless)",
+                      "{} (.ply is INRIA's PLY, which is lossless; a .glb may "
+                      "have meshes)",
                       fmt::join(writtenEndings(), ", "))),
       {writtenEndings().begin(), writtenEndings().end()})
       ->required();

@@ -7,12 +7,14 @@
 namespace vorion::splat {
 
 void addDeviceOption(CLI::App &App, std::string &Name) {
+  const HelpGroup Group(App, "Device and kernels");
   App.add_option("--device", Name,
                  "Substring of the OpenCL device's name (default Vorion, else "
                  "the first device)");
 }
 
 void addKernelsOption(CLI::App &App, std::string &Folder) {
+  const HelpGroup Group(App, "Device and kernels");
   takesFolder(App.add_option("--kernels", Folder,
                              "Read the kernel sources from this folder"));
 }

@@ -39,7 +39,8 @@ using Json = nlohmann::ordered_json;
 struct EffectsArguments : DrawArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
-  std::string Json, Html, Device, KernelFolder;
+  std::string Json, Device, KernelFolder;
+  PageFiles Page;
   unsigned Runs = 3;
   bool Each = false;
 };
@@ -59,11 +60,10 @@ Expected<Success> check(const EffectsArguments &A) {
     return Error{"", "effects are measured on one view, expected one --view",
                  ExitCode::Usage};
   for (const auto &Checked :
-       {checkJsonName(A.Json), checkEnding("--html", A.Html, {".html"}),
-        checkDrawOptions(A.Options)})
+       {checkJsonName(A.Json), checkPage(A.Page), checkDrawOptions(A.Options)})
     if (!Checked)
       return Checked;
-  return claimOutputs({{"--json", A.Json}, {"--html", A.Html}},
+  return claimOutputs({{"--json", A.Json}, {"--html", A.Page.Html}},
                       InputFiles()
                           .watched()
                           .scene(A.Scene.Path)
@@ -198,7 +198,7 @@ Expected<std::string> pageOf(const EffectsFound &F, const Image &Picture) {
        {std::move(Bars)},
        {{"The picture",
          "Identical for all three selections unless the table says otherwise.",
-         {{fmt::format("{}, view {}", printable(F.A.Scene.Path),
+         {{fmt::format("{}, view {}", escaped(F.A.Scene.Path),
                        printable(F.View.Name)),
            std::move(*Png)}}}},
        {tableOf(F), std::move(Chosen)},
@@ -214,9 +214,9 @@ Expected<Success> writeJson(const EffectsFound &F) {
 }
 
 /// Draws the picture for it once more, in this process.
-Expected<Success> writeHtml(const EffectsFound &F, const DeviceOpener &Open,
-                            const EffectInputs &In) {
-  if (F.A.Html.empty())
+Expected<Success> writeModes(const EffectsFound &F, const DeviceOpener &Open,
+                             const EffectInputs &In) {
+  if (!F.A.Page.any())
     return Success{};
   const auto D = Open();
   if (!D)
@@ -227,18 +227,18 @@ Expected<Success> writeHtml(const EffectsFound &F, const DeviceOpener &Open,
   if (!R)
     return R.error();
   const auto Page = pageOf(F, R->Picture);
-  return Page ? writeFileAtomically(F.A.Html, *Page)
-              : Expected<Success>(Page.error());
+  return Page ? writePage(F.A.Page, *Page) : Expected<Success>(Page.error());
 }
 
 Expected<Success> run(EffectsArguments &A, DeviceOptions Machine) {
   if (auto Checked = check(A); !Checked)
     return Checked;
-  const auto File = loadScene(A.Scene);
+  auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
   drawAs(A.Options, File->DrawnAs);
-  const auto Cameras = chooseCameras(A.Cameras, File->Gaussians);
+  const auto Cameras =
+      camerasToDraw(A.Cameras, *File, A.Options.Convention, A.Options.Near);
   if (!Cameras)
     return Cameras.error();
   if (auto Through = drawThrough(A.Options, A.Cameras.File, *Cameras); !Through)
@@ -278,7 +278,7 @@ Expected<Success> run(EffectsArguments &A, DeviceOptions Machine) {
   printOut("{}", textOf(F));
   if (auto Written = writeJson(F); !Written)
     return Written;
-  return writeHtml(F, OpenPlain, In);
+  return writeModes(F, OpenPlain, In);
 }
 
 } // namespace
@@ -291,9 +291,7 @@ Runner addEffects(CLI::App &App) {
                            "Name or number of the view (default: the first)"))
       ->allow_extra_args(false);
   writesFile(App.add_option("--json", A->Json, "Write all figures"), {".json"});
-  writesFile(App.add_option("--html", A->Html,
-                            "Write a page with all figures and the picture"),
-             {".html"});
+  addPageOptions(App, A->Page, "Write a page with all figures and the picture");
   App.add_option(
          "--runs", A->Runs,
          "Number of runs without the timing model, for host times (default 3)")

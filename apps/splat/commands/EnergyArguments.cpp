@@ -6,6 +6,7 @@ namespace vorion::splat {
 
 void addEnergyOptions(CLI::App &App, EnergyArguments &A,
                       const std::string &What) {
+  const HelpGroup Group(App, "Time and energy");
   App.add_flag("--energy", A.Energy,
                "Report the modelled energy of " + What +
                    " with its uncertainty (docs/energy.md; implies --time)");

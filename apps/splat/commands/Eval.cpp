@@ -11,8 +11,11 @@
 #include "eval/ScoreText.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
+#include "picture/SceneUnit.h"
 #include "picture/View.h"
 #include "render/Pictures.h"
+#include "scene/LocalFrame.h"
+#include "train/data/Start.h"
 #include "train/run/RunRecord.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -35,15 +38,15 @@ struct EvalArguments : DrawArguments {
   CaptureOptions Read;
   int Downscale = 1;
   bool All = false;
-  std::string Json, Csv, Html, Pictures, Device, KernelFolder;
+  std::string Json, Csv, Pictures, Device, KernelFolder;
+  PageFiles Page;
 };
 
 /// What can be said to be wrong before anything is read.
 Expected<Success> check(const EvalArguments &A) {
   for (const auto &Checked :
        {checkDrawOptions(A.Options), checkJsonName(A.Json),
-        checkEnding("--csv", A.Csv, {".csv"}),
-        checkEnding("--html", A.Html, {".html"})})
+        checkEnding("--csv", A.Csv, {".csv"}), checkPage(A.Page)})
     if (!Checked)
       return Checked;
   for (const float V : A.Options.Background)
@@ -60,7 +63,7 @@ Expected<Success> check(const EvalArguments &A) {
     if (auto Checked = checkPrefix("--pictures", A.Pictures); !Checked)
       return Checked;
   return claimOutputs(
-      {{"--json", A.Json}, {"--csv", A.Csv}, {"--html", A.Html}},
+      {{"--json", A.Json}, {"--csv", A.Csv}, {"--html", A.Page.Html}},
       InputFiles().watched().scene(A.Scene.Path).capture(A.Capture).named());
 }
 
@@ -95,9 +98,9 @@ reportOf(const EvalArguments &A, const SceneFile &File, const Capture &C,
   return Report;
 }
 
-Expected<Success> writeHtml(const EvalArguments &A, const Device &D,
-                            const std::vector<JudgedView> &Views,
-                            const std::vector<ViewScore> &Scores) {
+Expected<Success> writeScores(const EvalArguments &A, const Device &D,
+                              const std::vector<JudgedView> &Views,
+                              const std::vector<ViewScore> &Scores) {
   const auto Hash = hashScene(A.Scene.Path);
   if (!Hash)
     return Hash.error();
@@ -108,14 +111,13 @@ Expected<Success> writeHtml(const EvalArguments &A, const Device &D,
                                 A.Scene.Path, *Hash, A.Capture),
                     fmt::format("device {}, {}", D.name(), D.version())}},
                   Views, Scores);
-  return Page ? writeFileAtomically(A.Html, *Page)
-              : Expected<Success>(Page.error());
+  return Page ? writePage(A.Page, *Page) : Expected<Success>(Page.error());
 }
 
 Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   if (auto Checked = check(A); !Checked)
     return Checked;
-  const auto File = loadScene(A.Scene);
+  auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
   drawAs(A.Options, File->DrawnAs);
@@ -129,6 +131,9 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   const auto Set = loadTrainingSet(*C, Load);
   if (!Set)
     return Set.error();
+  if (!A.Options.Near)
+    A.Options.Near =
+        nearOfSmallScene(A.Options.Convention, C->poses(), sampleOf(*C));
   const std::vector<JudgedView> Views = judgedViews(*Set, A.All);
   if (Views.empty())
     return Error{A.Capture, "no held-out view, expected at least one, or --all",
@@ -139,7 +144,9 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
     Cameras.push_back(V.View->Pose);
   if (auto Through = drawThrough(A.Options, A.Capture, Cameras); !Through)
     return Through;
+  recentre(File->Gaussians, Cameras);
   const ViewFacts Facts = factsOfAll(File->Gaussians, Cameras, A.Options);
+  hintAtNear(A.Options, Facts);
   const EffectInputs Inputs{.Gaussians = File->Gaussians,
                             .Options = A.Options,
                             .Facts = Facts,
@@ -165,8 +172,8 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   if (!A.Pictures.empty())
     if (auto Written = writePairFiles(A.Pictures, Views, *Scores); !Written)
       return Written;
-  if (!A.Html.empty())
-    if (auto Written = writeHtml(A, *D, Views, *Scores); !Written)
+  if (A.Page.any())
+    if (auto Written = writeScores(A, *D, Views, *Scores); !Written)
       return Written;
   if (!A.Json.empty()) {
     const auto Report = reportOf(A, *File, *C, *Set, *D, *Scores);
@@ -176,7 +183,8 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
         !Written)
       return Written;
   }
-  printOut("{}{}\n", scoreTable(*Scores), NoLpips);
+  printOut("{}{}{}\n", readerLines(C->Notes, C->WithoutPicture),
+           scoreTable(*Scores), NoLpips);
   return Success{};
 }
 
@@ -190,6 +198,7 @@ Runner addEval(CLI::App &App) {
           "capture", A->Capture,
           "Photographs with poses, in any format that `splat train` reads"))
       ->required();
+  HelpGroup Group(App, "Photographs");
   App.add_flag(
       "--all", A->All,
       "Evaluate the training views, too (default: only the held-out views)");
@@ -206,8 +215,9 @@ Runner addEval(CLI::App &App) {
                  "Exclude this picture; may be repeated")
       ->allow_extra_args(false);
   addHoldOutOption(App, A->Read.HoldOut);
-  addOutsideOption(App, A->Read.AllowOutside);
+  addPlaceOptions(App, A->Read);
   addMasksOption(App, A->Read.Masks);
+  Group.next("Output");
   writesFile(App.add_option("--json", A->Json, "Write the scores as JSON"),
              {".json"});
   writesFile(App.add_option("--csv", A->Csv, "Write one line per view"),
@@ -216,10 +226,8 @@ Runner addEval(CLI::App &App) {
       App.add_option("--pictures", A->Pictures,
                      "Write each rendered view and its photograph as "
                      "PREFIX.NAME.drawn.png and PREFIX.NAME.photo.png"));
-  writesFile(
-      App.add_option("--html", A->Html,
-                     "Write a page with these pictures and their scores"),
-      {".html"});
+  addPageOptions(App, A->Page,
+                 "Write a page with these pictures and their scores");
   addDrawOptions(App, *A);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);

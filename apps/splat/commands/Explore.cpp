@@ -294,10 +294,12 @@ Runner addExplore(CLI::App &App) {
   auto A = std::make_shared<ExploreArguments>();
   addStudyOptions(App, A->Study, "trial",
                   "the scene's or the workload's name and -explore");
+  HelpGroup Group(App, "Study");
   App.add_flag("--print-space", A->PrintSpace,
                "Print the default design space and exit");
   takesFile(App.add_option("--space", A->SpaceFile,
                            "Design space, JSON (default: --print-space)"));
+  Group.next("Time and energy");
   takesFile(
       App.add_option("--technology", A->Energy.Technology,
                      "Energies and areas of a process node (default: 16 nm)"),
@@ -306,6 +308,7 @@ Runner addExplore(CLI::App &App) {
                  "Supply voltage of all machines (default: what each machine's "
                  "clock frequency needs)")
       ->option_text("V");
+  Group.next("Study");
   App.add_option("--machines", A->Machines,
                  "Number of machines: the base, each single change, and others "
                  "sampled at random (default 200)")
@@ -325,7 +328,8 @@ Runner addExplore(CLI::App &App) {
   addWorkloadOptions(App, A->Tried);
   return [A](const DeviceOptions &Machine) {
     nameOutput("--out", A->Study.Folder, A->Tried.input(), "-explore");
-    return run(*A, Machine);
+    auto Done = run(*A, Machine);
+    return Done ? writeStudyFigures(A->Study) : Done;
   };
 }
 

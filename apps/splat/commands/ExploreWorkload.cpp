@@ -29,7 +29,8 @@ void addSceneAndViews(CLI::App &App, SceneArguments &Scene,
                       CameraArguments &Cameras) {
   addSceneOptions(App, Scene);
   addCameraOptions(App, Cameras, /*Several=*/true);
-  takesView(App.add_option("--views", Cameras.Views,
+  const HelpGroup Group(App, "Cameras");
+  takesView(App.add_option("--view,--views", Cameras.Views,
                            "Views to render (default: all)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
@@ -149,7 +150,10 @@ WorkloadReader::entryOf(CLI::App &App, const std::string &Input,
                                      Input));
   std::vector<std::string> Known{"name", "weight"};
   for (const CLI::Option *O : App.get_options())
-    Known.push_back(O->get_positional() ? O->get_name() : O->get_lnames()[0]);
+    if (O->get_positional())
+      Known.push_back(O->get_name());
+    else
+      Known.insert(Known.end(), O->get_lnames().begin(), O->get_lnames().end());
   Entry E;
   E.Key = Key;
   auto Name = nameOf(Of, Key, Of[Input].get<std::string>());
@@ -264,6 +268,7 @@ void addWorkloadOptions(CLI::App &App, WorkloadArguments &A) {
                 {".json"});
   for (CLI::Option *O : OfScene)
     File->excludes(O);
+  const HelpGroup Group(App, "Study");
   App.add_option("--small-width", A.SmallWidth,
                  "Width of small views in pixels (default 480)")
       ->check(isBetween(16, 16384))

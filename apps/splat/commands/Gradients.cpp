@@ -7,6 +7,7 @@
 #include "commands/SceneArguments.h"
 
 #include "io/Npz.h"
+#include "picture/SceneUnit.h"
 #include "render/FrameTime.h"
 #include "render/Gradients.h"
 #include "render/Report.h"
@@ -135,16 +136,21 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
                                       .named());
       !Claimed)
     return Claimed;
-  const auto File = loadScene(A.Scene);
+  auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
   drawAs(A.Options, File->DrawnAs);
-  const auto C = readCamera(A.Cameras, A.View);
-  if (!C)
-    return C.error();
-  A.Options.Optics = C->Optics.Model;
-  A.Options.Rolling = C->Optics.Shutter.has_value();
-  const auto U = readUpstream(A.Upstream, *C);
+  const auto All = readCameras(A.Cameras);
+  if (!All)
+    return All.error();
+  const auto Chosen = selectCameras(A.Cameras, *All, {A.View});
+  if (!Chosen)
+    return Chosen.error();
+  const Camera &C = Chosen->front();
+  prepareToDraw(File->Gaussians, *All, A.Options.Convention, A.Options.Near);
+  A.Options.Optics = C.Optics.Model;
+  A.Options.Rolling = C.Optics.Shutter.has_value();
+  const auto U = readUpstream(A.Upstream, C);
   if (!U)
     return U.error();
   if (A.Time)
@@ -154,7 +160,7 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
     return D.error();
   Launcher L(*D, A.KernelFolder, progress());
   const auto R =
-      takeGradients(L, File->Gaussians, *C, A.Options, A.Backward, *U);
+      takeGradients(L, File->Gaussians, C, A.Options, A.Backward, *U);
   clearStatus();
   if (!R) {
     showBuildLog(L);
@@ -164,11 +170,11 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
       !Written)
     return Written.error();
   if (!A.Json.empty())
-    if (auto Reported = writeReport(A, *File, *C, *D, *R); !Reported)
+    if (auto Reported = writeReport(A, *File, C, *D, *R); !Reported)
       return Reported;
   printOut("{} {}x{} on {}: {} rules, support {}, path {}{}\n"
            "{} seen, {} with tiles of {}x{}\n",
-           escaped(C->Name), C->Width, C->Height, D->name(),
+           escaped(C.Name), C.Width, C.Height, D->name(),
            name(A.Options.Convention), name(A.Options.Reach),
            name(A.Options.Blending), toString(A.Backward, A.Options.Blending),
            counted(R->Visible, "Gaussian"), counted(R->Pairs, "pair"),
@@ -184,6 +190,7 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
 Runner addGradients(CLI::App &App) {
   auto A = std::make_shared<GradientArguments>();
   addSceneOptions(App, A->Scene);
+  HelpGroup Group(App, "Cameras");
   takesFile(
       App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
       {".json"})
@@ -198,6 +205,7 @@ Runner addGradients(CLI::App &App) {
           "picture including its background, in_v_alpha with respect to alpha"),
       {".npz"})
       ->required();
+  Group.next("Output");
   writesFile(App.add_option(
                  "-o,--output", A->Output,
                  "Gradients and the rasterizer's partial sums (.npz), with the "
@@ -207,6 +215,7 @@ Runner addGradients(CLI::App &App) {
   writesFile(App.add_option("--json", A->Json,
                             "Write a report with options, counters and times"),
              {".json"});
+  Group.next("Time and energy");
   App.add_flag("--time", A->Time,
                "Report the modelled time of the forward and backward pass "
                "(docs/model.md)");

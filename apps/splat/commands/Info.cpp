@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 struct InfoArguments {
   SceneArguments Scene;
   std::string JsonFile;
-  bool AllowOutside = false; ///< of a capture
+  CaptureOptions Read; ///< of a capture
 };
 
 Json json(const Distribution &S) {
@@ -129,7 +129,7 @@ Expected<Success> run(const InfoArguments &A) {
                              Words.front(), escaped(A.Scene.Path)),
                  ExitCode::Usage};
   if (OfCapture)
-    return describeCapture(A.Scene.Path, A.JsonFile, A.AllowOutside);
+    return describeCapture(A.Scene.Path, A.JsonFile, A.Read);
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
@@ -154,7 +154,7 @@ Runner addInfo(CLI::App &App) {
   addSceneOptions(App, A->Scene);
   writesFile(App.add_option("--json", A->JsonFile, "Write the report as JSON"),
              {".json"});
-  addOutsideOption(App, A->AllowOutside);
+  addPlaceOptions(App, A->Read);
   return [A](const DeviceOptions &) { return run(*A); };
 }
 

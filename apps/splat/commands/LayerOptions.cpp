@@ -10,6 +10,7 @@
 namespace vorion::splat {
 
 void addLayerOptions(CLI::App &App, LayerFiles &F) {
+  const HelpGroup Group(App, "Beside the picture");
   const std::vector<std::string> Pictures(pictureEndings().begin(),
                                           pictureEndings().end());
   writesFile(App.add_option("--depth", F.Depth,

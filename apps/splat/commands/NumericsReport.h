@@ -1,5 +1,5 @@
 /// `splat render --numerics`: the numeric sanitizer of the Vorion device
-/// (docs/debugging.md, "Numerics").
+/// (docs/numeric-sanitizer.md).
 #pragma once
 
 #include "device/DeviceOptions.h"

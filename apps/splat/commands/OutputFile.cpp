@@ -2,6 +2,7 @@
 
 #include "io/ReportHead.h"
 #include "scene/SceneFile.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
@@ -18,13 +19,13 @@ namespace {
 
 /// Endings that promise a kind of file to whoever sees them, besides those of
 /// scenes.
-constexpr std::array<std::string_view, 14> OtherKinds{
-    ".png", ".jpg", ".jpeg", ".webp", ".exr", ".pfm",  ".npz",
-    ".npy", ".svg", ".pdf",  ".html", ".csv", ".json", ".glb"};
+constexpr std::array<std::string_view, 16> OtherKinds{
+    ".png", ".jpg", ".jpeg", ".webp", ".exr",  ".pfm", ".npz", ".npy",
+    ".svg", ".pdf", ".html", ".csv",  ".json", ".glb", ".mp4", ".webm"};
 
 Error badName(std::string_view Option, const std::string &File,
               std::string_view What) {
-  return {"", fmt::format("{} {}: {}", Option, printable(File), What),
+  return {"", fmt::format("{} {}: {}", Option, escaped(File), What),
           ExitCode::Usage};
 }
 
@@ -116,6 +117,31 @@ Expected<Success> checkPrefix(std::string_view Option,
   return badName(
       Option, Prefix,
       "is a prefix of several file names, expected one without an extension");
+}
+
+CLI::Option *addFiguresOption(CLI::App &App, std::string &Folder,
+                              const std::string &Of) {
+  return writesFolder(App.add_option(
+      "--figures", Folder,
+      fmt::format("Write the charts and tables of {} into this folder for a "
+                  "paper: .svg, .png, .csv, and tables as .tex",
+                  Of)));
+}
+
+std::vector<CLI::Option *> addPageOptions(CLI::App &App, PageFiles &P,
+                                          const std::string &Help) {
+  return {writesFile(App.add_option("--html", P.Html, Help), {".html"}),
+          addFiguresOption(App, P.Figures)};
+}
+
+Expected<Success> checkPage(const PageFiles &P) {
+  if (auto Checked = checkEnding("--html", P.Html, {".html"}); !Checked)
+    return Checked;
+  std::error_code Ignored;
+  if (std::filesystem::exists(P.Figures, Ignored) &&
+      !std::filesystem::is_directory(P.Figures, Ignored))
+    return badName("--figures", P.Figures, "is a file, expected a folder");
+  return Success{};
 }
 
 } // namespace vorion::splat

@@ -2,7 +2,10 @@
 /// checks whether a file can be written.
 #pragma once
 
+#include "page/Figures.h"
 #include "vorion/support/Expected.h"
+
+#include <CLI/CLI.hpp>
 
 #include <string>
 #include <string_view>
@@ -30,5 +33,16 @@ Expected<Success> checkJsonName(const std::string &File);
 /// name of a file.
 Expected<Success> checkPrefix(std::string_view Option,
                               const std::string &Prefix);
+
+/// Declares --html, with \p Help, and --figures; gives both.
+std::vector<CLI::Option *> addPageOptions(CLI::App &App, PageFiles &P,
+                                          const std::string &Help);
+
+/// Declares --figures, for the page at \p Of.
+CLI::Option *addFiguresOption(CLI::App &App, std::string &Folder,
+                              const std::string &Of = "the page");
+
+/// Checks the extension of --html, and that --figures can be a folder.
+Expected<Success> checkPage(const PageFiles &P);
 
 } // namespace vorion::splat

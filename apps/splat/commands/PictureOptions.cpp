@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -17,22 +18,22 @@ namespace {
 
 /// What is given up for time or area, on either path.
 void addDatapathOptions(CLI::App &App, RenderOptions &O) {
+  const HelpGroup Group(App, "Accuracy and speed");
   addChoice(App, "--exp", O.Exponential, ExpUnits,
             "Exponential unit; tables need the rasterizer");
   addSize(App, "--alpha-cutoff", O.AlphaCutoff, {1, 2, 4, 8},
           "Minimum alpha of a blended Gaussian, in units of 1/255");
   App.add_option("--depth-bits", O.DepthBits,
                  "Number of leading depth bits in the sort key (default 32)")
-      ->option_text("1..32")
       ->check(isBetween(1U, 32U));
   App.add_option(
          "--sh-degree", O.ShLimit,
          "Maximum degree of spherical harmonics that are evaluated (default 3)")
-      ->option_text("0..3")
       ->check(isBetween(0, 3));
 }
 
 void addRasterOptions(CLI::App &App, DrawArguments &A) {
+  const HelpGroup Group(App, "Accuracy and speed");
   RenderOptions &O = A.Options;
   addChoice(App, "--blend", O.Arithmetic, BlendUnits,
             "Precision of the multiplications in the rasterizer's blend stage; "
@@ -42,7 +43,6 @@ void addRasterOptions(CLI::App &App, DrawArguments &A) {
   App.add_option("--ztiles", O.ZTiles,
                  "Number of depth segments of a tile's list that are blended "
                  "independently and then merged (default 1)")
-      ->option_text(fmt::format("1..{}", MaxZTiles))
       ->check(isBetween(1U, MaxZTiles));
   App.add_option(
          "--pixel-unit", A.PixelUnit,
@@ -56,7 +56,35 @@ void addRasterOptions(CLI::App &App, DrawArguments &A) {
 
 } // namespace
 
+void addNearOption(CLI::App &App, std::optional<float> &Near) {
+  const HelpGroup Group(App, "Picture");
+  App.add_option("--near", Near,
+                 "Depth of the near plane (default: 0.2 with INRIA's rules, "
+                 "0.01 with gsplat's; less for scenes that are seen from "
+                 "less than 1 unit)")
+      ->option_text("Z");
+}
+
+Expected<Success> checkNear(const std::optional<float> &Near) {
+  if (Near && !(std::isnormal(*Near) && *Near > 0))
+    return usage(fmt::format("--near {}: expected a depth above 0, from {:.3g} "
+                             "to {:.3g}",
+                             *Near, std::numeric_limits<float>::min(),
+                             std::numeric_limits<float>::max()));
+  return Success{};
+}
+
+void hintAtNear(const RenderOptions &O, const ViewFacts &F) {
+  if (!O.Near && 2 * F.BeforeNear > F.InView)
+    printDiagnostic(
+        "splat", "note", "",
+        fmt::format("{} of {} Gaussians in front of the camera are culled by "
+                    "the near plane at depth {:g}: --near sets a smaller depth",
+                    F.BeforeNear, F.InView, O.nearLimit()));
+}
+
 void addPictureOptions(CLI::App &App, RenderOptions &O) {
+  const HelpGroup Group(App, "Picture");
   addRulesOption(App, O.Convention);
   addChoice(
       App, "--support", O.Reach,
@@ -67,10 +95,7 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
   addBackgroundOption(
       App, O.Background,
       "Background colour, e.g. 1,1,1 for white (default 0,0,0)");
-  App.add_option("--near", O.Near,
-                 "Depth of the near plane (default: 0.2 with INRIA's rules, "
-                 "0.01 with gsplat's)")
-      ->option_text("Z");
+  addNearOption(App, O.Near);
   App.add_option(
       "--cutoff", O.Cutoff,
       "Transmittance below which a pixel is saturated (default 0.0001)");
@@ -94,11 +119,8 @@ Expected<Success> checkPictureOptions(const RenderOptions &O) {
   for (const float B : O.Background)
     if (!std::isfinite(B))
       return usage(fmt::format("--background {}: expected finite numbers", B));
-  if (O.Near && !(std::isnormal(*O.Near) && *O.Near > 0))
-    return usage(fmt::format("--near {}: expected a depth above 0, from {:.3g} "
-                             "to {:.3g}",
-                             *O.Near, std::numeric_limits<float>::min(),
-                             std::numeric_limits<float>::max()));
+  if (auto Checked = checkNear(O.Near); !Checked)
+    return Checked;
   if (!(O.Cutoff >= 0 && O.Cutoff < 1))
     return usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
   if (O.Blending == Path::Raster && O.Reach == Support::Official16)
@@ -112,10 +134,12 @@ void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects) {
   addDatapathOptions(App, A.Options);
   addRasterOptions(App, A);
   addSimtOptions(App, A.Options.SimtTile, A.Options.SimtGroup, {8, 16, 32, 64});
+  HelpGroup Group(App, "Picture");
   addChoice(App, "--order", A.Options.Order,
             {PixelOrder::Depth, PixelOrder::Ray},
             "Blend order: by the depths of the Gaussians' centres, or per "
             "pixel by the depths along its ray (docs/numerics.md)");
+  Group.next("Accuracy and speed");
   App.add_flag("--cull-blocks", A.Options.CullBlocks,
                "Cull blocks of 16 Gaussians that are outside a pinhole "
                "camera's frustum; results are bit-identical (docs/ideas.md)");
@@ -124,6 +148,7 @@ void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects) {
           "over its list; results are bit-identical");
   if (!Effects)
     return;
+  Group.next("Device and kernels");
   takesSomeOf(
       App.add_option("--effects", A.Effects,
                      "Effects compiled into the kernels: those that the scene "
@@ -184,22 +209,33 @@ void warnOfMissing(const EffectPlan &P, const std::string &Asked) {
                                 Asked, E->Name, P.of(*E).Detected.Figure));
 }
 
+CLI::Option *addVectorOption(CLI::App &App, const std::string &Name,
+                             const std::string &Example,
+                             std::function<void(std::array<float, 3>)> Take,
+                             const std::string &Help) {
+  // One word: three floats would take the options behind it, too.
+  return App.add_option_function<std::string>(
+      Name,
+      [Name, Example, Take = std::move(Take)](const std::string &Text) {
+        const auto Words = CLI::detail::split(Text, ',');
+        std::array<float, 3> Value{};
+        bool Read = Words.size() == Value.size();
+        for (std::size_t N = 0; Read && N < Value.size(); ++N)
+          Read = CLI::detail::lexical_cast(Words[N], Value[N]);
+        if (!Read)
+          throw CLI::ValidationError(
+              Name, fmt::format("{}, expected three numbers, e.g. {}", Text,
+                                Example));
+        Take(Value);
+      },
+      Help);
+}
+
 void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
                          const std::string &Help) {
-  // One word: three floats would take the options behind it, too.
-  App.add_option_function<std::string>(
-         "--background",
-         [&Colour](const std::string &Text) {
-           const auto Words = CLI::detail::split(Text, ',');
-           bool Read = Words.size() == Colour.size();
-           for (std::size_t N = 0; Read && N < Colour.size(); ++N)
-             Read = CLI::detail::lexical_cast(Words[N], Colour[N]);
-           if (!Read)
-             throw CLI::ValidationError(
-                 "--background",
-                 fmt::format("{}, expected three numbers, e.g. 1,0.5,0", Text));
-         },
-         Help)
+  addVectorOption(
+      App, "--background", "1,0.5,0",
+      [&Colour](std::array<float, 3> Value) { Colour = Value; }, Help)
       ->option_text("R,G,B");
 }
 
@@ -221,6 +257,7 @@ void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {
 
 void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
                     const std::vector<unsigned> &Tiles) {
+  const HelpGroup Heading(App, "Accuracy and speed");
   addSize(App, "--simt-tile", Tile, Tiles,
           "Tile size in pixels on the simt path");
   addSize(App, "--simt-group", Group, {16, 64, 256},
@@ -228,6 +265,7 @@ void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
 }
 
 void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
+  const HelpGroup Group(App, "Accuracy and speed");
   addChoice(App, "--reciprocal", B.Unit, Reciprocals,
             "Unit of the rasterizer for 1/(1 - alpha)");
   addChoice(App, "--sum", B.Order, {GatherOrder::Tree, GatherOrder::Rows},

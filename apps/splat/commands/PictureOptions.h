@@ -10,6 +10,8 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,8 +47,23 @@ Expected<Success> checkDrawOptions(const RenderOptions &O);
 /// Asked is the value of --effects.
 void warnOfMissing(const EffectPlan &P, const std::string &Asked);
 
+/// Declares an option of three numbers with commas between them. \p Example is
+/// for the message about others.
+CLI::Option *addVectorOption(CLI::App &App, const std::string &Name,
+                             const std::string &Example,
+                             std::function<void(std::array<float, 3>)> Take,
+                             const std::string &Help);
+
 void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
                          const std::string &Help);
+
+/// Declares --near, for which checkNear() has a usage error if it is no depth.
+void addNearOption(CLI::App &App, std::optional<float> &Near);
+Expected<Success> checkNear(const std::optional<float> &Near);
+
+/// Prints a note where the rules' near plane hides more of a view of \p F than
+/// it shows.
+void hintAtNear(const RenderOptions &O, const ViewFacts &F);
 
 void addRulesOption(CLI::App &App, Rules &Convention);
 

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <memory>
+#include <utility>
 
 namespace vorion::splat {
 namespace {
@@ -60,6 +61,32 @@ private:
   Clock::time_point FirstDrawn, LastLine = Clock::now();
 };
 
+class PartProgress {
+public:
+  explicit PartProgress(std::string What) : What(std::move(What)) {}
+
+  void show(std::size_t Done, std::size_t All) {
+    const auto Now = Clock::now();
+    const double Every = canOverwrite() ? 0.1 : 10; // seconds
+    if (seconds(Now - Last) < Every)
+      return;
+    Last = Now;
+    const std::string Text =
+        All == 0 ? fmt::format("{}: {}", What, Done)
+                 : fmt::format("{}: {} of {}{}", What, Done, All,
+                               timeLeftText(seconds(Now - First), Done, All));
+    if (canOverwrite())
+      showStatus(fmt::format("splat: {}{} ...",
+                             All == 0 ? "" : barText(Done, All) + " ", Text));
+    else
+      printNote(fmt::format("splat: {}\n", Text));
+  }
+
+private:
+  std::string What;
+  Clock::time_point First = Clock::now(), Last = First;
+};
+
 } // namespace
 
 void hideProgress() { Hidden = true; }
@@ -80,6 +107,14 @@ std::function<void(std::string_view)> progressOf(std::size_t Views) {
   return [P = std::make_shared<ViewProgress>(Views)](std::string_view Stage) {
     P->enter(Stage);
   };
+}
+
+std::function<void(std::size_t, std::size_t)>
+progressOfParts(const std::string &What) {
+  if (Hidden)
+    return [](std::size_t, std::size_t) {};
+  return [P = std::make_shared<PartProgress>(What)](
+             std::size_t Done, std::size_t All) { P->show(Done, All); };
 }
 
 } // namespace vorion::splat

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <string_view>
 
 namespace vorion::splat {
@@ -18,5 +19,11 @@ std::function<void(std::string_view)> progress();
 /// remaining time; without a terminal, an occasional line. It must be called
 /// with each stage of each view.
 std::function<void(std::string_view)> progressOf(std::size_t Views);
+
+/// The same for a step \p What of several parts. It must be called with the
+/// number of finished parts and the number of all parts, or 0 if that is
+/// unknown.
+std::function<void(std::size_t, std::size_t)>
+progressOfParts(const std::string &What);
 
 } // namespace vorion::splat

@@ -14,9 +14,12 @@
 #include "effects/Registry.h"
 
 #include "io/Cameras.h"
+#include "io/Npz.h"
+#include "mesh/Mesh.h"
 #include "page/TimePage.h"
 #include "picture/HeatMap.h"
 #include "picture/View.h"
+#include "poses/Video.h"
 #include "render/EffectCosts.h"
 #include "render/Explain.h"
 #include "render/Fallback.h"
@@ -26,11 +29,17 @@
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/StatusLine.h"
+#include "vorion/support/TemporaryFolder.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -46,22 +55,173 @@ struct RenderArguments : DrawArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
   std::string Output, CamerasOut;
-  std::string Json, Html, Pairs, Device, KernelFolder;
+  std::string Json, Pairs, Device, KernelFolder;
+  PageFiles Page;
+  std::vector<std::string> WhatIf;
   LayerFiles Layers;
   std::string Explain; ///< empty, "plan" or "measure"
   bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
   EnergyArguments Energy;
   PictureFormat Format;
-  std::string Numerics; ///< settings, empty for no
-  std::string HeatMap;  ///< what names of files begin with, empty for no
+  std::optional<double> FrameRate; ///< of a video, per second
+  std::string Numerics;            ///< settings, empty for no
+  std::string HeatMap; ///< what names of files begin with, empty for no
+  std::string Mesh;    ///< file of a mesh, empty for no
+  std::string Visible; ///< --dump-visible
 };
 
 bool isOne(const RenderArguments &A) { return A.Cameras.isOne(); }
 
+bool isVideo(const RenderArguments &A) { return isVideoName(A.Output); }
+
+bool wantsTime(const RenderArguments &A) {
+  return A.Time || A.ClockMhz || A.Energy.isWanted() || A.Page.any() ||
+         !A.WhatIf.empty();
+}
+
 /// Whether the device blends the lists more than once.
 bool blendsAgain(const RenderArguments &A) {
   return A.Layers.needDepths() || A.Layers.needNormals();
+}
+
+/// What transparent surfaces cannot be drawn with.
+Expected<Success> checkTransparency(const RenderArguments &A) {
+  const RenderOptions &O = A.Options;
+  const char *Expected = O.ZTiles != 1                  ? "--ztiles 1"
+                         : O.Deal == Dealing::LastFrame ? "--deal lists"
+                         : A.Overlap                    ? "no --overlap"
+                         : A.Layers.needDepths()        ? "no --depth"
+                                                        : nullptr;
+  if (!Expected || !O.Surface || !O.Surface->has(AlphaMode::Blend))
+    return Success{};
+  return Error{O.Surface->File,
+               fmt::format("transparent surfaces are drawn between ranges of "
+                           "whole lists, expected {}",
+                           Expected),
+               ExitCode::Usage};
+}
+
+/// What a mesh, if there is one, cannot be drawn with; and what needs one.
+Expected<Success> checkMesh(const RenderArguments &A, bool HasMesh) {
+  const auto Usage = [](std::string What) {
+    return Error{"", std::move(What), ExitCode::Usage};
+  };
+  const RenderOptions &O = A.Options;
+  if (!HasMesh) {
+    if (!A.Visible.empty())
+      return Usage("--dump-visible shows a mesh, expected --mesh");
+    return O.Light ? Usage("--light shines on a mesh, expected --mesh")
+                   : Expected<Success>(Success{});
+  }
+  if (A.Layers.needNormals() || A.Layers.needLists())
+    return Usage("--mesh has no normals and contributors beside the picture, "
+                 "expected none of --normals, --contributors and --depth-as "
+                 "median");
+  if (!A.HeatMap.empty())
+    return Usage("--heat-map shows one command per tile, expected no --mesh");
+  if (A.Explain == "measure")
+    return Usage("--explain=measure switches no mesh, expected no --mesh");
+  if (!isOne(A) && !A.Visible.empty())
+    return Usage("--dump-visible applies to one picture, expected one --view");
+  return Success{};
+}
+
+/// Reads a mesh, and prints what is left out.
+Expected<Mesh> loadMesh(const std::string &Path) {
+  auto Read = readMesh(Path);
+  if (Read)
+    for (const MeshWarning &W : Read->Warnings)
+      printDiagnostic("splat", "warning", W.Where, W.What);
+  return Read;
+}
+
+/// \p M in the frame of a scene with the origin \p Origin.
+Mesh relativeTo(Mesh M, const WorldPoint &Origin) {
+  for (std::size_t I = 0; I < M.Positions.size(); ++I)
+    M.Positions[I] = static_cast<float>(M.Positions[I] - Origin[I % 3]);
+  return M;
+}
+
+/// \p M in the axes of a scene that \p A reads from the same file.
+Expected<Mesh> inAxesOf(const SceneArguments &A, Mesh M) {
+  const auto Change = axesChangeOf(A);
+  if (!Change)
+    return Change.error();
+  for (std::vector<float> *Vectors : {&M.Positions, &M.Normals})
+    for (std::size_t I = 0; I < Vectors->size(); ++I)
+      (*Vectors)[I] *=
+          static_cast<float>(Change->From[I % 3] * Change->To[I % 3]);
+  return M;
+}
+
+/// The triangles to draw: those beside the Gaussians in the scene's file, then
+/// those of --mesh. Without any, null.
+Expected<std::shared_ptr<const Mesh>> loadMeshes(const RenderArguments &A,
+                                                 const SceneFile &File) {
+  std::optional<Mesh> All;
+  if (File.Meshes > 0) {
+    auto Own = loadMesh(A.Scene.Path);
+    if (Own)
+      Own = inAxesOf(A.Scene, std::move(*Own));
+    if (!Own)
+      return Own.error();
+    All = std::move(*Own);
+  }
+  if (!A.Mesh.empty()) {
+    auto Added = loadMesh(A.Mesh);
+    if (!Added)
+      return Added.error();
+    if (All)
+      All->append(std::move(*Added));
+    else
+      All = std::move(*Added);
+  }
+  if (!All)
+    return std::shared_ptr<const Mesh>();
+  return std::make_shared<const Mesh>(
+      relativeTo(std::move(*All), File.Gaussians.Origin));
+}
+
+/// Whether the cameras of \p A show straight lines straight.
+Expected<Success> checkMeshCameras(const RenderArguments &A) {
+  const RenderOptions &O = A.Options;
+  if (!O.Surface ||
+      (!O.Rolling && (O.Optics->isPinhole() || O.Optics->IsParallel)))
+    return Success{};
+  return Error{A.Cameras.File,
+               fmt::format("--mesh: a camera of model {}{}, expected a pinhole "
+                           "or orthographic camera with a global shutter",
+                           O.Optics->Name,
+                           O.Rolling ? " with a rolling shutter" : ""),
+               ExitCode::Usage};
+}
+
+/// What a video cannot be written with.
+Expected<Success> checkVideo(const RenderArguments &A) {
+  const auto Usage = [](std::string What) {
+    return Error{"", std::move(What), ExitCode::Usage};
+  };
+  if (!isVideo(A))
+    return A.FrameRate ? Usage("--frame-rate is of a video, expected -o with "
+                               ".mp4 or .webm")
+                       : Expected<Success>(Success{});
+  if (isOne(A))
+    return Usage("-o: a video has several pictures, expected --orbit, "
+                 "--frames or --view all");
+  if (!A.Json.empty() || wantsTime(A))
+    return Usage("reports and times are of pictures, expected -o with a "
+                 "picture, or none of --json, --time, --clock and --energy");
+  return checkVideoWriter();
+}
+
+/// The extensions of -o.
+std::vector<std::string_view> outputEndings() {
+  std::vector<std::string_view> Endings(pictureEndings().begin(),
+                                        pictureEndings().end());
+  Endings.insert(Endings.end(), std::begin(VideoEndings),
+                 std::end(VideoEndings));
+  return Endings;
 }
 
 /// What can be said to be wrong before anything is read.
@@ -71,9 +231,11 @@ Expected<Success> check(const RenderArguments &A) {
   };
   const RenderOptions &O = A.Options;
   for (const auto &Checked :
-       {checkEnding("-o", A.Output, pictureEndings()),
-        checkEnding("--dump-pairs", A.Pairs, {".npz"}), checkJsonName(A.Json),
-        checkEnding("--html", A.Html, {".html"}),
+       {checkEnding("-o", A.Output, outputEndings()), checkVideo(A),
+        checkEnding("--dump-pairs", A.Pairs, {".npz"}),
+        checkEnding("--dump-visible", A.Visible, {".npz"}),
+        A.Mesh.empty() ? Success{} : checkMesh(A, /*HasMesh=*/true),
+        checkJsonName(A.Json), checkPage(A.Page),
         checkEnding("--write-cameras", A.CamerasOut, {".json"})})
     if (!Checked)
       return Checked;
@@ -100,8 +262,12 @@ Expected<Success> check(const RenderArguments &A) {
                  "several --view");
   if (!isOne(A) && !A.Pairs.empty())
     return Usage("--dump-pairs applies to one picture, expected one --view");
-  if (!isOne(A) && !A.Html.empty())
-    return Usage("--html applies to one picture, expected one --view");
+  if (!isOne(A) && A.Page.any())
+    return Usage(A.Page.Html.empty()
+                     ? "--figures applies to one picture, expected one --view"
+                     : "--html applies to one picture, expected one --view");
+  if (!isOne(A) && !A.WhatIf.empty())
+    return Usage("--what-if applies to one picture, expected one --view");
   if (!A.HeatMap.empty()) {
     if (auto Checked = checkPrefix("--heat-map", A.HeatMap); !Checked)
       return Checked;
@@ -118,10 +284,11 @@ Expected<Success> check(const RenderArguments &A) {
         "--explain=measure applies to one picture, expected one --view");
   // A render may take minutes: find out now whether it can be kept.
   std::vector<NamedFile> Outputs = HeatMapFiles::outputs(A.HeatMap);
-  Outputs.insert(Outputs.end(), {{"-o", isOne(A) ? A.Output : ""},
+  Outputs.insert(Outputs.end(), {{"-o", isOne(A) || isVideo(A) ? A.Output : ""},
                                  {"--json", A.Json},
-                                 {"--html", A.Html},
+                                 {"--html", A.Page.Html},
                                  {"--dump-pairs", A.Pairs},
+                                 {"--dump-visible", A.Visible},
                                  {"--write-cameras", A.CamerasOut}});
   const std::vector<NamedFile> Layers = A.Layers.named();
   Outputs.insert(Outputs.end(), Layers.begin(), Layers.end());
@@ -130,17 +297,8 @@ Expected<Success> check(const RenderArguments &A) {
                                    .scene(A.Scene.Path)
                                    .cameras(A.Cameras.File)
                                    .file("--technology", A.Energy.Technology)
+                                   .file("--mesh", A.Mesh)
                                    .named());
-}
-
-/// Where the rules' near plane hides more of a view than it shows.
-void hintAtNear(const RenderOptions &O, const ViewFacts &F) {
-  if (!O.Near && 2 * F.BeforeNear > F.InView)
-    printDiagnostic(
-        "splat", "note", "",
-        fmt::format("{} of {} Gaussians in front of the camera are culled by "
-                    "the near plane at depth {:g}: --near sets a smaller depth",
-                    F.BeforeNear, F.InView, O.nearLimit()));
 }
 
 RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
@@ -157,8 +315,7 @@ void fallBack(const RenderArguments &A, const Launcher &L,
   // The counts of a frame must not depend on what was compiled before.
   const bool FiguresWanted = !A.Json.empty() || !A.Explain.empty() ||
                              !A.Numerics.empty() || !A.HeatMap.empty() ||
-                             !A.Html.empty() || A.Time || A.Energy.isWanted() ||
-                             A.ClockMhz.has_value();
+                             wantsTime(A);
   if (A.Request.Selection != EffectRequest::Mode::Auto || FiguresWanted)
     return;
   RenderPlan Cheaper = cheaperFirstFrame(L, Plan, In);
@@ -173,15 +330,15 @@ void fallBack(const RenderArguments &A, const Launcher &L,
 bool wantsTiles(const RenderArguments &A) {
   // Of a second blend, or of several pictures, the figures would be others.
   return !A.HeatMap.empty() ||
-         (!A.Html.empty() && A.Options.Blending == Path::Raster &&
-          !blendsAgain(A) && A.Explain != "measure");
+         (A.Page.any() && A.Options.Blending == Path::Raster &&
+          !A.Options.Surface && !blendsAgain(A) && A.Explain != "measure");
 }
 
-/// The page of --html. \p Map may be nullptr.
-Expected<Success> writeHtml(const std::string &File, const PictureJob &J,
-                            const RenderResult &R,
-                            nlohmann::ordered_json Report,
-                            const HeatMapFiles *Map) {
+/// The page of --html and its figures. \p Map may be nullptr.
+Expected<Success> writeTimes(const PageFiles &To, const PictureJob &J,
+                             const RenderResult &R,
+                             nlohmann::ordered_json Report,
+                             const HeatMapFiles *Map) {
   if (Map) {
     const auto Tiles = Map->tiles();
     if (!Tiles)
@@ -193,8 +350,7 @@ Expected<Success> writeHtml(const std::string &File, const PictureJob &J,
     return Png.error();
   const auto Page =
       timePageOf({{J.ScenePath, std::move(Report), std::move(*Png)}});
-  return Page ? writeFileAtomically(File, *Page)
-              : Expected<Success>(Page.error());
+  return Page ? writePage(To, *Page) : Expected<Success>(Page.error());
 }
 
 Expected<Success> printEnergy(const PictureJob &J,
@@ -209,10 +365,6 @@ Expected<Success> printEnergy(const PictureJob &J,
   return Success{};
 }
 
-bool wantsTime(const RenderArguments &A) {
-  return A.Time || A.ClockMhz || A.Energy.isWanted() || !A.Html.empty();
-}
-
 /// Where a region of launches has no more than a part of the time of \p Stages
 /// that \p A asks for. Without it the page has nothing to show.
 Expected<Success> checkWholeTime(const RenderArguments &A, const PictureJob &J,
@@ -222,13 +374,27 @@ Expected<Success> checkWholeTime(const RenderArguments &A, const PictureJob &J,
     return Success{};
   const std::string What = fmt::format(
       "VORION_REGION={} times only a part of the launches", printable(Region));
-  if (!A.Html.empty())
-    return Error{A.Html,
+  if (A.Page.any())
+    return Error{A.Page.Html,
                  "no page: " + What + ", expected all launches of the picture",
                  ExitCode::Usage};
   printDiagnostic("splat", "note", "",
                   What + ": there is no time or energy of a whole picture");
   return Success{};
+}
+
+Expected<Success> writeVisible(const std::string &File, const VisibleMesh &V) {
+  const std::vector<std::size_t> Shape{static_cast<std::size_t>(V.Height),
+                                       static_cast<std::size_t>(V.Width)};
+  Npz Arrays{{"depth", NpyArray::of(Shape, V.Depth)},
+             {"triangle", NpyArray::of(Shape, V.Triangles)}};
+  if (const std::size_t Layers = V.LayerDepths.size() / V.Depth.size();
+      Layers != 0) {
+    const std::vector<std::size_t> Planes{Layers, Shape[0], Shape[1]};
+    Arrays["layer_depth"] = NpyArray::of(Planes, V.LayerDepths);
+    Arrays["layer_triangle"] = NpyArray::of(Planes, V.LayerTriangles);
+  }
+  return writeNpz(File, Arrays);
 }
 
 /// \p Map may be nullptr.
@@ -242,18 +408,23 @@ Expected<Success> renderOne(const RenderArguments &A, const PictureJob &J,
   }
   if (auto Written = writePicture(J, C, *R); !Written)
     return Written;
+  if (!A.Visible.empty())
+    if (auto Written = writeVisible(A.Visible, *R->MeshShown); !Written)
+      return Written;
+  printOut("{}",
+           boundsText(frameJson(R->Stages), J.Others, pictureHash(R->Picture)));
   printOut("{}", textReport(C, J.Options, J.Launch.device(), *R));
   if (auto Printed = printEnergy(J, R->Stages, "frame"); !Printed)
     return Printed;
   if (auto Whole = checkWholeTime(A, J, R->Stages); !Whole)
     return Whole;
-  if (!Map && A.Html.empty())
+  if (!Map && !A.Page.any())
     return Success{};
   auto Report = reportOf(J, J.Output, C, *R);
   if (!Report)
     return Report.error();
-  if (!A.Html.empty())
-    if (auto Written = writeHtml(A.Html, J, *R, *Report, Map); !Written)
+  if (A.Page.any())
+    if (auto Written = writeTimes(A.Page, J, *R, *Report, Map); !Written)
       return Written;
   return Map ? Map->write(C, std::move(*Report)) : Expected<Success>(Success{});
 }
@@ -278,6 +449,7 @@ Expected<Success> claimPictures(const RenderArguments &A,
                                     .cameras(A.Cameras.File)
                                     .file("--write-cameras", A.CamerasOut)
                                     .file("--json", A.Json)
+                                    .file("--mesh", A.Mesh)
                                     .named());
 }
 
@@ -295,10 +467,48 @@ Expected<Success> renderAll(const RenderArguments &A, const PictureJob &J,
           [](const std::string &File) { printOut("{}\n", escaped(File)); });
       !Written)
     return Written;
-  printOut("{}", sequenceText(*R));
+  printOut("{}{}", boundsText(sequenceJson(*R), {}, ""), sequenceText(*R));
   if (auto Whole = checkWholeTime(A, J, R->Stages); !Whole)
     return Whole;
   return printEnergy(J, R->Stages, "all");
+}
+
+/// Renders \p Cameras a few at a time, and joins the pictures to a video.
+Expected<Success> renderVideo(const RenderArguments &A, const PictureJob &J,
+                              const std::vector<Camera> &Cameras) {
+  const auto Folder = TemporaryFolder::make("splat-frames");
+  if (!Folder)
+    return Folder.error();
+  constexpr std::size_t AtOnce = 16; // pictures in memory
+  std::size_t Count = 0;
+  for (std::size_t I = 0; I < Cameras.size(); I += AtOnce) {
+    const std::vector<Camera> Part(
+        Cameras.begin() + static_cast<std::ptrdiff_t>(I),
+        Cameras.begin() +
+            static_cast<std::ptrdiff_t>(std::min(I + AtOnce, Cameras.size())));
+    const auto R = renderSequence(J.Launch, J.Plan, J.Input.Gaussians, Part,
+                                  J.Options, A.Overlap);
+    if (!R) {
+      clearStatus();
+      showBuildLog(J.Launch);
+      return R.error();
+    }
+    for (const RenderResult &Frame : R->Frames)
+      if (auto Written =
+              writeImage(fmt::format("{}/{:06}.png", Folder->path(), Count++),
+                         Frame.Picture, J.Format);
+          !Written)
+        return Written;
+  }
+  constexpr double DefaultRate = 30;
+  const double Rate = A.FrameRate.value_or(DefaultRate);
+  clearStatus();
+  if (auto Written = writeVideo(A.Output, Folder->path() + "/", Rate); !Written)
+    return Written;
+  printOut("{}: {} of {}x{}, {:g} a second\n", escaped(A.Output),
+           counted(Count, "picture"), Cameras.front().Width,
+           Cameras.front().Height, Rate);
+  return Success{};
 }
 
 Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
@@ -307,17 +517,29 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   const auto Energy = requestedEnergy(A.Energy, A.ClockMhz);
   if (!Energy)
     return Energy.error();
-  const auto File = loadScene(A.Scene, loadPlatforms);
+  auto File = loadScene(A.Scene, loadPlatforms);
   if (!File)
     return File.error();
+  auto Surface = loadMeshes(A, *File);
+  if (!Surface)
+    return Surface.error();
+  A.Options.Surface = std::move(*Surface);
+  A.Options.KeepVisible = !A.Visible.empty();
+  for (const auto &Checked :
+       {checkMesh(A, A.Options.Surface != nullptr), checkTransparency(A)})
+    if (!Checked)
+      return Checked;
   drawAs(A.Options, File->DrawnAs);
   const Scene *S = &File->Gaussians;
-  const auto Cameras = chooseCameras(A.Cameras, *S);
+  const auto Cameras =
+      camerasToDraw(A.Cameras, *File, A.Options.Convention, A.Options.Near);
   if (!Cameras)
     return Cameras.error();
   if (auto Through = drawThrough(A.Options, A.Cameras.File, *Cameras); !Through)
     return Through;
-  if (!isOne(A))
+  if (auto Checked = checkMeshCameras(A); !Checked)
+    return Checked;
+  if (!isOne(A) && !isVideo(A))
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;
   if (!A.CamerasOut.empty())
@@ -327,7 +549,11 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     turnClockOn(Machine, A.ClockMhz,
                 A.Time                ? "--time"
                 : A.Energy.isWanted() ? "--energy"
+                : !A.WhatIf.empty()   ? "--what-if"
+                : A.Page.Html.empty() ? "--figures"
                                       : "--html");
+  // What watches the picture does not watch others.
+  const DeviceOptions Plain = Machine;
   std::optional<NumericsReport> Numerics;
   if (!A.Numerics.empty()) {
     auto Begun = NumericsReport::begin(A.Numerics, Machine);
@@ -370,6 +596,21 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
       checkEnergyOf(*Opened, *Energy);
     return Opened;
   };
+  const auto Others = measureWhatIf(
+      A.WhatIf,
+      [&](const std::string &Settings) -> DeviceOpener {
+        DeviceOptions With = Plain;
+        const std::string Set = With.text("VORION_SET");
+        With.set("VORION_SET", Set.empty() ? Settings : Set + "," + Settings,
+                 "--what-if");
+        return [&A, With] {
+          return openDevice(A.Device, A.Options.Blending, With);
+        };
+      },
+      A.KernelFolder, Plan, Inputs, Cameras->front(), progress());
+  clearStatus();
+  if (!Others)
+    return Others.error();
   std::string Measured;
   if (A.Explain == "measure") {
     const auto Costs = measureEffects(Open, A.KernelFolder, A.Request, Inputs,
@@ -396,10 +637,12 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
                      A.Pairs,
                      A.Layers,
                      A.Format,
-                     *Energy};
+                     *Energy,
+                     *Others};
   auto Rendered = isOne(A)
                       ? renderOne(A, J, Cameras->front(), Map ? &*Map : nullptr)
-                      : renderAll(A, J, *Cameras);
+                  : isVideo(A) ? renderVideo(A, J, *Cameras)
+                               : renderAll(A, J, *Cameras);
   if (!Rendered)
     return Rendered;
   L.recordBuilds();
@@ -417,8 +660,10 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
 
 Runner addRender(CLI::App &App) {
   auto A = std::make_shared<RenderArguments>();
+  A->Scene.KeepsMeshes = true;
   addSceneOptions(App, A->Scene);
   addCameraOptions(App, A->Cameras, /*Several=*/true);
+  HelpGroup Group(App, "Cameras");
   takesView(
       App.add_option("--view", A->Cameras.Views,
                      "Name or number of a view (default: the first); may be "
@@ -429,19 +674,19 @@ Runner addRender(CLI::App &App) {
   writesFile(App.add_option("--write-cameras", A->CamerasOut,
                             "Write the rendered views as cameras.json"),
              {".json"});
-  App.add_flag("--overlap", A->Overlap,
-               "With several pictures, overlap the preparation of one with the "
-               "blending of another");
-  addChoice(App, "--deal", A->Options.Deal,
-            {Dealing::Lists, Dealing::LastFrame},
-            "Distribution of tiles to the rasterizers: by the lengths of their "
-            "lists or, with several pictures, by their cost in the previous "
-            "one (docs/ideas.md)");
+  Group.next("Output");
   writesFile(App.add_option("-o,--output", A->Output,
                             "Picture file: .png, .jpg or .webp with 8 bits, or "
                             ".exr, .pfm or .npz with floats (default: the "
-                            "scene's name with .png, in the current folder)"),
-             {pictureEndings().begin(), pictureEndings().end()});
+                            "scene's name with .png, in the current folder); "
+                            "or a video of several views: .mp4 or .webm"),
+             [] {
+               const auto Endings = outputEndings();
+               return std::vector<std::string>(Endings.begin(), Endings.end());
+             }());
+  App.add_option("--frame-rate", A->FrameRate,
+                 "Pictures per second of a video (default 30)")
+      ->check(isBetween(0.1, 240.0));
   App.add_option(
          "--quality", A->Format.Quality,
          "Quality of a .jpg (default 95) or a lossy .webp (default: lossless)")
@@ -451,12 +696,44 @@ Runner addRender(CLI::App &App) {
   writesFile(App.add_option("--json", A->Json,
                             "Write a report with options, counters and times"),
              {".json"});
-  writesFile(
-      App.add_option(
-          "--html", A->Html,
-          "Write a page with the breakdown of the frame time (implies --time)"),
-      {".html"});
+  addPageOptions(
+      App, A->Page,
+      "Write a page with the breakdown of the frame time (implies --time)");
   addDrawOptions(App, *A);
+  Group.next("Accuracy and speed");
+  App.add_flag("--overlap", A->Overlap,
+               "With several pictures, overlap the preparation of one with the "
+               "blending of another");
+  addChoice(App, "--deal", A->Options.Deal,
+            {Dealing::Lists, Dealing::LastFrame},
+            "Distribution of tiles to the rasterizers: by the lengths of their "
+            "lists or, with several pictures, by their cost in the previous "
+            "one (docs/ideas.md)");
+  Group.next("Scene");
+  takesFile(App.add_option("--mesh", A->Mesh,
+                           "Mesh of triangles that is drawn with the "
+                           "Gaussians: .obj, .ply, .glb or .gltf "
+                           "(docs/meshes.md)"),
+            {".obj", ".ply", ".glb", ".gltf"});
+  addVectorOption(
+      App, "--light", "0.3,-1,0.5",
+      [A](std::array<float, 3> Along) {
+        const double Length = std::hypot(Along[0], Along[1], Along[2]);
+        if (!(Length > 0 && Length < 1e30))
+          throw CLI::ValidationError("--light", "expected a direction");
+        for (float &Part : Along)
+          Part = static_cast<float>(Part / Length);
+        A->Options.Light = Along;
+      },
+      "Direction in which a light shines on the mesh, by the world's axes "
+      "(default: no light, colours as they are)")
+      ->option_text("X,Y,Z");
+  Group.next("Beside the picture");
+  writesFile(App.add_option("--dump-visible", A->Visible,
+                            "Write depth and triangle of the mesh in each "
+                            "pixel (.npz)"),
+             {".npz"});
+  Group.next("Analysis");
   addDeviceOption(App, A->Device);
   App.add_flag(
          "--explain{plan}", A->Explain,
@@ -464,6 +741,7 @@ Runner addRender(CLI::App &App) {
          "=measure, also measure its cost by rendering with and without it")
       ->option_text("[=measure]")
       ->check(isOneOf({"plan", "measure"}));
+  Group.next("Time and energy");
   App.add_flag("--time", A->Time,
                "Report the modelled frame time (docs/model.md)");
   App.add_option("--clock", A->ClockMhz,
@@ -471,7 +749,13 @@ Runner addRender(CLI::App &App) {
                  "default: the machine's, 530)")
       ->option_text("MHZ")
       ->check(isBetween(1U, MostClockMhz));
+  App.add_option("--what-if", A->WhatIf,
+                 "Measure the frame with these keys of --set, too (implies "
+                 "--time); may be repeated")
+      ->allow_extra_args(false)
+      ->option_text("KEY=VALUE,...");
   addEnergyOptions(App, A->Energy, "the frame");
+  Group.next("Analysis");
   App.add_flag("--numerics{on}", A->Numerics,
                "Report where fp32 results deviate from double precision, by "
                "source line and rasterizer stage (docs/debugging.md)")
@@ -482,6 +766,7 @@ Runner addRender(CLI::App &App) {
                      "PREFIX.list.png, .blends, .cycles and .saturation, and "
                      "PREFIX.json (docs/debugging.md)"));
   addLayerOptions(App, A->Layers);
+  Group.next("Beside the picture");
   writesFile(App.add_option(
                  "--dump-pairs", A->Pairs,
                  "Write the sorted tile, depth_bits and index arrays (.npz)"),
@@ -490,6 +775,8 @@ Runner addRender(CLI::App &App) {
   return [A](const DeviceOptions &Machine) {
     const bool IsNamed = !A->Output.empty();
     nameOutput("-o", A->Output, A->Scene.Path, ".png");
+    if (isVideo(*A) && A->Cameras.Views.empty())
+      A->Cameras.Views = {"all"};
     if (auto Parsed = parseDrawTexts(*A); !Parsed)
       return Parsed;
     auto Drawn = run(*A, Machine);

@@ -275,7 +275,7 @@ Expected<Success> replay(const ReplayArguments &A,
     Changed.erase(std::ranges::unique(Changed).begin(), Changed.end());
     std::string Named;
     for (const std::string &File : Changed)
-      Named += (Named.empty() ? "" : ", ") + printable(File);
+      Named += (Named.empty() ? "" : ", ") + escaped(File);
     return wrong(
         A, fmt::format("inputs have changed: {}, expected the recorded hashes",
                        Named));

@@ -1,8 +1,8 @@
 #include "commands/SceneArguments.h"
 
-#include "scene/Axes.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 namespace vorion::splat {
 
 void addSceneOptions(CLI::App &App, SceneArguments &A) {
+  const HelpGroup Group(App, "Scene");
   std::vector<std::string_view> Titles;
   std::vector<std::string> Endings;
   for (const SceneFormatRecord &F : sceneFormats()) {
@@ -37,14 +38,17 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
                "Drop Gaussians with a NaN or an infinity, and report their "
                "number (default: they are an error)");
   std::optional<bool> &Antialiased = A.Options.Drawn.Antialiased;
-  CLI::Option *Yes = App.add_flag_callback(
-      "--antialiased", [&Antialiased] { Antialiased = true; },
-      "Compensate opacities for the dilation (default: as recorded in the "
-      "scene's file, else off)");
-  App.add_flag_callback(
-         "--no-antialiased", [&Antialiased] { Antialiased = false; },
-         "Do not compensate opacities, whatever the scene's file records")
-      ->excludes(Yes);
+  App.add_flag_function(
+      "--antialiased,!--no-antialiased",
+      [&Antialiased](std::int64_t Sum) {
+        if (Sum == 0)
+          throw CLI::ValidationError(
+              "--antialiased", "given with --no-antialiased, expected one of "
+                               "them");
+        Antialiased = Sum > 0;
+      },
+      "Compensate opacities for the dilation, or not (default: as recorded in "
+      "the scene's file, else off)");
   App.add_option("--dilation", A.Options.Drawn.Dilation,
                  "Variance added to both axes of a projected Gaussian "
                  "(default: as recorded in the scene's file, else 0.3)")
@@ -59,6 +63,11 @@ static Expected<SceneFile> readMeanwhile(const SceneArguments &A,
   return Reading.get();
 }
 
+Expected<AxesChange> axesChangeOf(const SceneArguments &A) {
+  return A.Axes.empty() ? Expected(AxesChange{})
+                        : parseAxesChange("--axes", A.Axes);
+}
+
 Expected<SceneFile> loadScene(const SceneArguments &A,
                               const std::function<void()> &Meanwhile) {
   if (const auto Dilation = A.Options.Drawn.Dilation;
@@ -67,18 +76,17 @@ Expected<SceneFile> loadScene(const SceneArguments &A,
         "",
         fmt::format("--dilation {}: expected {}", *Dilation, ExpectedDilation),
         ExitCode::Usage};
-  AxesChange Change;
-  if (!A.Axes.empty()) {
-    const auto Parsed = parseAxesChange("--axes", A.Axes);
-    if (!Parsed)
-      return Parsed.error();
-    Change = *Parsed;
-  }
+  const auto Change = axesChangeOf(A);
+  if (!Change)
+    return Change.error();
   auto File =
       Meanwhile ? readMeanwhile(A, Meanwhile) : readScene(A.Path, A.Options);
   if (!File)
     return File;
-  changeAxes(File->Gaussians, Change);
+  changeAxes(File->Gaussians, *Change);
+  if (File->Up)
+    for (std::size_t K = 0; K < 3; ++K)
+      (*File->Up)[K] *= Change->From[K] * Change->To[K];
   if (!File->Skipped.empty()) {
     // A long list helps nobody.
     constexpr std::size_t MostNamed = 12;
@@ -96,6 +104,16 @@ Expected<SceneFile> loadScene(const SceneArguments &A,
                 ? ""
                 : fmt::format(" and {} more", File->Skipped.size() - Named)));
   }
+  if (File->Meshes > 0 && !A.KeepsMeshes)
+    printDiagnostic("splat", "warning", A.Path,
+                    fmt::format("ignores {} without Gaussians, which splat "
+                                "render draws",
+                                counted(File->Meshes, "primitive")));
+  if (File->ReducedFrom > 0)
+    printDiagnostic("splat", "warning", A.Path,
+                    fmt::format("has spherical harmonics of degree {}: those "
+                                "above degree {} are ignored",
+                                File->ReducedFrom, MaxShDegree));
   if (File->Dropped > 0)
     printDiagnostic(
         "splat", "warning", A.Path,

@@ -1,12 +1,13 @@
 #include "commands/SceneEdits.h"
 
 #include "commands/Usage.h"
-#include "scene/Activation.h"
 #include "scene/Edit.h"
 #include "scene/MortonOrder.h"
+#include "scene/Selection.h"
 #include "vorion/support/CommandLine.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -38,11 +39,14 @@ Expected<Success> check(const SceneEdits &E) {
   return Success{};
 }
 
-/// Leaves out what \p Keep does not hold for, and says so in \p Said.
-template <typename Rule>
+/// Leaves out the Gaussians that are \p Selected, or the others, and says so in
+/// \p Said.
 Expected<Success> leaveOut(Scene &S, const char *Name, const std::string &What,
-                           std::vector<LeftOut> &Said, const Rule &Keep) {
-  const std::size_t Count = S.size(), Gone = keepOnly(S, Keep);
+                           std::vector<LeftOut> &Said,
+                           const Selection &Selected, bool IfSelected) {
+  const std::size_t Count = S.size(), Gone = keepOnly(S, [&](std::size_t I) {
+                                        return Selected[I] != IfSelected;
+                                      });
   Said.push_back(
       {fmt::format("dropped {} of {} Gaussians {}", Gone, Count, What), Name,
        Gone});
@@ -52,6 +56,13 @@ Expected<Success> leaveOut(Scene &S, const char *Name, const std::string &What,
         fmt::format("all {} Gaussians are {}, expected at least one to remain",
                     Count, What)};
   return Success{};
+}
+
+template <std::size_t Count>
+std::array<double, Count> firstOf(const std::vector<double> &Values) {
+  std::array<double, Count> Of{};
+  std::copy_n(Values.begin(), Count, Of.begin());
+  return Of;
 }
 
 Similarity moveOf(const SceneEdits &E) {
@@ -88,6 +99,12 @@ void addEditOptions(CLI::App &App, SceneEdits &E) {
       ->option_text("A")
       ->check(isBetween(0.0, 1.0))
       ->group(Group);
+  App.add_option("--drop-large", E.Large,
+                 "Drop Gaussians with a standard deviation above D, in units "
+                 "of the scene")
+      ->option_text("D")
+      ->check(isBetween(0.0, 1e30))
+      ->group(Group);
   Numbers("--crop-box,--filter-box", E.Box, 6, "X0,Y0,Z0,X1,Y1,Z1",
           "Keep Gaussians whose centre is inside the box between two corners");
   Numbers("--crop-sphere,--filter-sphere", E.Sphere, 4, "X,Y,Z,R",
@@ -113,36 +130,26 @@ Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E) {
     return Error{"", "the transformed scene exceeds the range of floats, "
                      "expected a smaller --scale or --translate"};
   if (E.Faint)
+    if (auto Kept = leaveOut(S, "faint",
+                             fmt::format("with an opacity below {}", *E.Faint),
+                             Said, fainterThan(S, *E.Faint), true);
+        !Kept)
+      return Kept.error();
+  if (E.Large)
     if (auto Kept = leaveOut(
-            S, "faint", fmt::format("with an opacity below {}", *E.Faint), Said,
-            [&, Activated = activate<double>(S)](std::size_t I) {
-              return Activated.Opacities[I] >= *E.Faint;
-            });
+            S, "large",
+            fmt::format("with a standard deviation above {}", *E.Large), Said,
+            largerThan(S, *E.Large), true);
         !Kept)
       return Kept.error();
   if (!E.Box.empty())
     if (auto Kept = leaveOut(S, "box", "outside the box", Said,
-                             [&](std::size_t I) {
-                               bool Inside = true;
-                               for (std::size_t A = 0; A < 3; ++A)
-                                 Inside = Inside &&
-                                          S.Means[3 * I + A] >= E.Box[A] &&
-                                          S.Means[3 * I + A] <= E.Box[A + 3];
-                               return Inside;
-                             });
+                             inBox(S, firstOf<6>(E.Box)), false);
         !Kept)
       return Kept.error();
   if (!E.Sphere.empty())
     if (auto Kept = leaveOut(S, "sphere", "outside the sphere", Said,
-                             [&](std::size_t I) {
-                               double Squares = 0;
-                               for (std::size_t A = 0; A < 3; ++A) {
-                                 const double D =
-                                     S.Means[3 * I + A] - E.Sphere[A];
-                                 Squares += D * D;
-                               }
-                               return Squares <= E.Sphere[3] * E.Sphere[3];
-                             });
+                             inSphere(S, firstOf<4>(E.Sphere)), false);
         !Kept)
       return Kept.error();
   if (E.Degree && *E.Degree < S.ShDegree) {

@@ -14,9 +14,10 @@ namespace vorion::splat {
 struct SceneEdits {
   std::vector<double> Translate, Rotate; ///< 3 numbers each, or empty
   std::optional<double> Scale;
-  std::vector<double> Box;    ///< x0, y0, z0, x1, y1, z1
-  std::vector<double> Sphere; ///< x, y, z, radius
-  std::optional<double> Faint;
+  std::vector<double> Box;     ///< x0, y0, z0, x1, y1, z1
+  std::vector<double> Sphere;  ///< x, y, z, radius
+  std::optional<double> Faint; ///< smallest opacity that stays
+  std::optional<double> Large; ///< largest standard deviation that stays
   std::optional<int> Degree;
   bool MortonOrder = false;
 };
@@ -27,7 +28,7 @@ void addEditOptions(CLI::App &App, SceneEdits &E);
 /// Gaussians or data that were removed.
 struct LeftOut {
   std::string Text;          ///< for the terminal
-  std::string Rule;          ///< "faint", "box", "sphere", "harmonics"
+  std::string Rule;          ///< "faint", "large", "box", "sphere", "harmonics"
   std::size_t Gaussians = 0; ///< 0 for "harmonics"
 };
 
@@ -37,8 +38,9 @@ struct SceneChanges {
   std::optional<std::size_t> Reordered;
 };
 
-/// Transforms \p S, removes faint Gaussians and those outside box and sphere,
-/// sets the SH degree, and reorders the rest. An Error if no Gaussian remains.
+/// Transforms \p S, removes faint and large Gaussians and those outside box
+/// and sphere, sets the SH degree, and reorders the rest. An Error if no
+/// Gaussian remains.
 Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E);
 
 } // namespace vorion::splat

@@ -1,5 +1,6 @@
 #include "commands/StudyArguments.h"
 
+#include "commands/OutputFile.h"
 #include "commands/Progress.h"
 #include "io/Hash.h"
 #include "io/Inside.h"
@@ -17,6 +18,7 @@ namespace vorion::splat {
 
 void addStudyOptions(CLI::App &App, StudyOptions &S, const std::string &What,
                      const std::string &Default) {
+  const HelpGroup Group(App, "Study");
   writesFolder(App.add_option(
       "--out", S.Folder,
       fmt::format(
@@ -39,6 +41,7 @@ void addStudyOptions(CLI::App &App, StudyOptions &S, const std::string &What,
       ->option_text(upperCase(What))
       ->allow_extra_args(false)
       ->excludes("--list");
+  addFiguresOption(App, S.Figures)->excludes("--list")->excludes("--only");
 }
 
 /// That no view's files would take another's place.
@@ -61,9 +64,9 @@ static Expected<std::vector<Camera>> chosenViews(CameraArguments C,
     C.Views = {"all"};
   // Only a motion and a view that is found look at the scene.
   if (!C.File.empty() && C.Orbit == 0)
-    return chooseCameras(C, Scene());
+    return chooseCameras(C, SceneFile());
   const auto File = loadScene(S);
-  return File ? chooseCameras(C, File->Gaussians)
+  return File ? chooseCameras(C, *File)
               : Expected<std::vector<Camera>>(File.error());
 }
 
@@ -103,6 +106,11 @@ Expected<Success> writeStudy(const std::string &Folder, const std::string &Name,
       !Written)
     return Written;
   return writeFileAtomically(Folder + "/index.html", Page);
+}
+
+Expected<Success> writeStudyFigures(const StudyOptions &O) {
+  return O.Figures.empty() ? Expected<Success>(Success{})
+                           : writeFigures(O.Folder + "/index.html", O.Figures);
 }
 
 void logStudy(std::string_view Line) {

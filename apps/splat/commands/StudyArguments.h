@@ -37,6 +37,10 @@ Expected<Success> writeStudy(const std::string &Folder, const std::string &Name,
                              const nlohmann::ordered_json &Report,
                              const std::string &Page);
 
+/// Writes the figures of the page that a run of a study with the options \p O
+/// has left, if they are requested.
+Expected<Success> writeStudyFigures(const StudyOptions &O);
+
 /// Prints a progress line, unless progress is disabled.
 void logStudy(std::string_view Line);
 

@@ -1,3 +1,4 @@
+#include "commands/CaptureInfo.h"
 #include "commands/Choices.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
@@ -12,9 +13,11 @@
 #include "capture/Undistort.h"
 #include "io/ReportHead.h"
 #include "page/Chart.h"
+#include "scene/LocalFrame.h"
 #include "scene/formats/Ply.h"
 #include "train/run/TrainReport.h"
 #include "train/run/Training.h"
+#include "view/TrainServer.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -40,7 +43,8 @@ struct TrainArguments {
   TrainedArguments Trained;
   std::string Output, Json, Curve, Device;
   TrainPictures Pictures;
-  bool Time = false, Breakdown = false;
+  bool Time = false, Breakdown = false, View = false;
+  std::optional<int> Port;
   EnergyArguments Energy;
   std::optional<unsigned> GivenTimeEvery;
 
@@ -102,12 +106,16 @@ std::string curveOf(const std::vector<float> &Losses, const std::string &What) {
 
 Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
                                const std::optional<EnergyRequest> &Energy) {
+  const auto Report = trainReport(A.Trained.Request, Out, Energy);
+  if (!Report)
+    return Report.error();
   if (auto Written = writePly(
           A.Output, Out.Result,
           {A.Trained.Request.Run.Antialiased, std::nullopt, "--antialiased"});
       !Written)
     return Written;
-  if (auto Written = writeTrainPictures(A.Pictures, A.Output, Out); !Written)
+  if (auto Written = writeTrainPictures(A.Pictures, A.Output, Out, *Report);
+      !Written)
     return Written;
   if (!A.Curve.empty())
     if (auto Written = writeFileAtomically(
@@ -119,9 +127,6 @@ Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
       return Written;
   if (A.Json.empty())
     return Success{};
-  const auto Report = trainReport(A.Trained.Request, Out, Energy);
-  if (!Report)
-    return Report.error();
   return writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n");
 }
 
@@ -132,9 +137,7 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
            counted(Out.Iterations, "iteration"));
   printOut("pictures     {} to train on, {} held out ({}); {}\n",
            Out.TrainingViews, Out.HeldOut.size(), Out.HeldOutBy, PhotoFilter);
-  if (Out.WithoutPicture != 0)
-    printOut("skipped      {} without a picture\n",
-             counted(Out.WithoutPicture, "view"));
+  printOut("{}", readerLines(Out.Notes, Out.WithoutPicture));
   if (Out.Distorted != 0 && R.Run.Pictures == LensOf::Undistorted)
     printOut("undistorted  {}; {}\n", counted(Out.Distorted, "picture"),
              LensFilter);
@@ -144,6 +147,16 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
   if (R.Run.Through == Spread::Unscented)
     printOut("projection   unscented: eval and render need --projection "
              "unscented, too\n");
+  if (Out.Near)
+    printOut("near plane   at depth {:g}: render from other distances needs "
+             "--near {:g}, too\n",
+             *Out.Near, *Out.Near);
+  if (const auto &[X, Y, Z] = Out.Result.Origin;
+      Out.Result.Origin != WorldPoint{})
+    printOut("frame        trained around ({:.9g}, {:.9g}, {:.9g}), because "
+             "fp32 has too few digits here; written in the capture's frame, "
+             "positions as {}\n",
+             X, Y, Z, needsDoubles(Out.Result) ? "doubles" : "floats");
   if (R.Run.Masks != MaskSource::None)
     printOut("masks        {}\n", R.Run.Masks == MaskSource::Alpha
                                       ? "transparent pixels are masked out"
@@ -208,12 +221,12 @@ Expected<Success> check(const TrainArguments &A) {
       return Checked;
   if (auto Checked = checkTrained(R); !Checked)
     return Checked;
-  if (R.Read.HoldOut == 0U &&
-      !(A.Pictures.Html.empty() && A.Pictures.Pictures.empty()))
-    return Error{"",
-                 "--html and --pictures show held-out views, expected "
-                 "--hold-out above 0",
-                 ExitCode::Usage};
+  if (R.Read.HoldOut == 0U && A.Pictures.any())
+    return Error{
+        "",
+        "--html, --figures and --pictures show held-out views, expected "
+        "--hold-out above 0",
+        ExitCode::Usage};
   if (R.Read.HoldOut == 0U && R.ScoreEvery != 0)
     return Error{
         "",
@@ -222,8 +235,11 @@ Expected<Success> check(const TrainArguments &A) {
   if (A.GivenTimeEvery && !A.isClocked())
     return Error{"", "--time-every: expected --time, --breakdown or --energy",
                  ExitCode::Usage};
-  if (R.ScoreEvery != 0 && A.Json.empty())
-    return Error{"", "--score-every: expected --json", ExitCode::Usage};
+  if (R.ScoreEvery != 0 && A.Json.empty() && !A.Pictures.Page.any() && !A.View)
+    return Error{"", "--score-every: expected --json, --html or --view",
+                 ExitCode::Usage};
+  if (A.Port && !A.View)
+    return Error{"", "--port: expected --view", ExitCode::Usage};
   const InputFiles Inputs = InputFiles()
                                 .watched()
                                 .capture(R.Capture)
@@ -233,7 +249,7 @@ Expected<Success> check(const TrainArguments &A) {
                        {"--json", A.Json},
                        {"--curve", A.Curve},
                        {"the cameras", camerasFor(A.Output)},
-                       {"--html", A.Pictures.Html},
+                       {"--html", A.Pictures.Page.Html},
                        {"--checkpoint", R.Checkpoint}},
                       Inputs.named());
 }
@@ -254,12 +270,39 @@ Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine,
   return D;
 }
 
+/// Serves the page of the run.
+Expected<std::unique_ptr<TrainServer>> serve(const TrainArguments &A,
+                                             const TrainingSet &Pictures) {
+  auto Page = TrainServer::start(
+      A.Port.value_or(0),
+      printable(std::filesystem::path(A.Output).filename().string()), Pictures);
+  if (Page) {
+    clearStatus();
+    printOut("splat train: {}\n", (*Page)->address());
+    // Who waits for the address may read it from a pipe.
+    std::fflush(stdout);
+  }
+  return Page;
+}
+
 Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
   const auto Energy = requestedEnergy(A.Energy, std::nullopt);
   if (!Energy)
     return Energy.error();
   if (A.isClocked())
     A.Trained.Request.TimeEvery = A.timeEvery();
+  std::unique_ptr<TrainServer> Page;
+  const auto Begin = [&](const TrainingSet &Pictures) -> Expected<Success> {
+    auto Started = serve(A, Pictures);
+    if (!Started)
+      return Started.error();
+    Page = std::move(*Started);
+    return Success{};
+  };
+  const auto Between = [&](const TrainMoment &Now) {
+    return Page->between(Now);
+  };
+  using Host = TrainHost;
   const auto Out = train(
       A.Trained.Request,
       {.Check = [&A] { return check(A); },
@@ -268,13 +311,17 @@ Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
        .Progress = showProgress,
        .EndProgress = keepStatus,
        .Note =
-           [](std::string_view Line) { printNote(std::string(Line) + "\n"); }});
+           [](std::string_view Line) { printNote(std::string(Line) + "\n"); },
+       .Begin = A.View ? Begin : decltype(Host::Begin)(),
+       .Between = A.View ? Between : decltype(Host::Between)()});
   if (!Out)
     return Out.error();
   if (!*Out)
     return Success{};
   if (auto Written = writeOutputs(A, **Out, *Energy); !Written)
     return Written;
+  if (Page)
+    Page->end(**Out);
   printOutcome(A, **Out);
   return printEnergy((*Out)->Timed, *Energy);
 }
@@ -293,11 +340,13 @@ Runner addTrain(CLI::App &App) {
   writesFile(App.add_option(
       "--checkpoint", R.Checkpoint,
       "Checkpoint file (default: the output's name with .checkpoint)"));
+  HelpGroup Group(App, "Output");
   App.add_option("--checkpoint-every", R.CheckpointEvery,
                  "Iterations between checkpoints (default 1000)")
       ->check(isIterations());
   App.add_flag("--resume", R.Resume,
                "Continue from the checkpoint if it exists");
+  Group.next("Time and energy");
   App.add_flag("--time", A->Time,
                "Report the modelled time of iterations (docs/model.md)");
   App.add_flag(
@@ -309,9 +358,11 @@ Runner addTrain(CLI::App &App) {
       ->check(isIterations());
   addEnergyOptions(App, A->Energy,
                    "the last timed iteration (in --json: of each)");
+  Group.next("Output");
   App.add_option("--score-every", R.ScoreEvery,
-                 "Evaluate the held-out views every N iterations, for --json "
-                 "(default: only at the end)");
+                 "Evaluate the held-out views every N iterations, for --json, "
+                 "--html and --view (default: with --html or --view a "
+                 "twentieth of the run, else only at the end)");
   writesFile(App.add_option("--json", A->Json,
                             "Write a report with options, losses and times"),
              {".json"});
@@ -319,6 +370,11 @@ Runner addTrain(CLI::App &App) {
       App.add_option("--curve", A->Curve, "Write a plot of the loss (.svg)"),
       {".svg"});
   addTrainPictures(App, A->Pictures);
+  App.add_flag("--view", A->View,
+               "Serve a page of the run: picture, curves, pause and stop");
+  App.add_option("--port", A->Port,
+                 "TCP port of --view on 127.0.0.1 (default 0: any free port)")
+      ->check(isBetween(0, 65535));
   addDeviceOption(App, A->Device);
   return [A, &App](const DeviceOptions &Machine) -> Expected<Success> {
     if (auto Completed = completeTrained(App, A->Trained); !Completed)
@@ -326,7 +382,11 @@ Runner addTrain(CLI::App &App) {
     nameOutput("-o", A->Output, A->Trained.Request.Capture, ".ply");
     if (A->Trained.Request.Checkpoint.empty())
       A->Trained.Request.Checkpoint = A->Output + ".checkpoint";
-    A->Trained.Request.KeepPictures = A->Pictures.any();
+    TrainRequest &R = A->Trained.Request;
+    R.KeepPictures = A->Pictures.any();
+    if (R.ScoreEvery == 0 && R.Read.HoldOut != 0U &&
+        (A->View || A->Pictures.Page.any()))
+      R.ScoreEvery = std::max(1U, R.Run.Settings.Iterations / 20);
     return run(*A, Machine);
   };
 }

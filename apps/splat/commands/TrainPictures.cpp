@@ -3,6 +3,7 @@
 
 #include "eval/ScorePage.h"
 #include "io/ReportHead.h"
+#include "page/TrainingsPage.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Letters.h"
@@ -24,14 +25,13 @@ void addTrainPictures(CLI::App &App, TrainPictures &P) {
       App.add_option("--pictures", P.Pictures,
                      "Write the rendered held-out views and their photographs "
                      "as PREFIX.NAME.drawn.png and PREFIX.NAME.photo.png"));
-  writesFile(
-      App.add_option("--html", P.Html,
-                     "Write a page with these pictures and their scores"),
-      {".html"});
+  addPageOptions(App, P.Page,
+                 "Write a page with these pictures and their scores, and with "
+                 "the curves of the run");
 }
 
 Expected<Success> checkTrainPictures(const TrainPictures &P) {
-  if (auto Checked = checkEnding("--html", P.Html, {".html"}); !Checked)
+  if (auto Checked = checkPage(P.Page); !Checked)
     return Checked;
   return P.Pictures.empty() ? Expected<Success>(Success{})
                             : checkPrefix("--pictures", P.Pictures);
@@ -39,7 +39,8 @@ Expected<Success> checkTrainPictures(const TrainPictures &P) {
 
 Expected<Success> writeTrainPictures(const TrainPictures &P,
                                      const std::string &Output,
-                                     const TrainOutcome &Out) {
+                                     const TrainOutcome &Out,
+                                     const nlohmann::ordered_json &Report) {
   std::vector<Camera> Cameras = Out.Cameras;
   std::ranges::sort(Cameras, {}, &Camera::Name);
   for (std::size_t I = 0; I < Cameras.size(); ++I)
@@ -57,16 +58,17 @@ Expected<Success> writeTrainPictures(const TrainPictures &P,
   if (!P.Pictures.empty())
     if (auto Written = writePairFiles(P.Pictures, Views, Scores); !Written)
       return Written;
-  if (P.Html.empty())
+  if (!P.Page.any())
     return Success{};
+  const std::string Name = std::filesystem::path(Output).filename().string();
   const auto Page = scorePageOf(
-      {std::filesystem::path(Output).filename().string(),
+      {Name,
        {madeBy(), fmt::format("scene {} after {}; device {}, {}", Output,
                               counted(Out.Iterations, "iteration"),
-                              Out.DeviceName, Out.DeviceVersion)}},
+                              Out.DeviceName, Out.DeviceVersion)},
+       curvesOf(Name, Report)},
       Views, Scores);
-  return Page ? writeFileAtomically(P.Html, *Page)
-              : Expected<Success>(Page.error());
+  return Page ? writePage(P.Page, *Page) : Expected<Success>(Page.error());
 }
 
 } // namespace vorion::splat

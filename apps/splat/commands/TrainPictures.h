@@ -2,6 +2,7 @@
 /// requested the held-out pictures with their photographs.
 #pragma once
 
+#include "page/Figures.h"
 #include "train/run/Training.h"
 #include "vorion/support/Expected.h"
 
@@ -12,9 +13,10 @@
 namespace vorion::splat {
 
 struct TrainPictures {
-  std::string Html, Pictures; ///< file name, and prefix of file names
+  PageFiles Page;
+  std::string Pictures; ///< prefix of file names
 
-  bool any() const { return !Html.empty() || !Pictures.empty(); }
+  bool any() const { return Page.any() || !Pictures.empty(); }
 };
 
 /// The name of the camera file for the scene in \p Output: in the same folder,
@@ -27,9 +29,11 @@ void addTrainPictures(CLI::App &App, TrainPictures &P);
 /// Checks the file extensions.
 Expected<Success> checkTrainPictures(const TrainPictures &P);
 
-/// Writes them for the scene in \p Output.
+/// Writes them for the scene in \p Output. The page has the curves of \p
+/// Report, the run's.
 Expected<Success> writeTrainPictures(const TrainPictures &P,
                                      const std::string &Output,
-                                     const TrainOutcome &Out);
+                                     const TrainOutcome &Out,
+                                     const nlohmann::ordered_json &Report);
 
 } // namespace vorion::splat

@@ -38,7 +38,7 @@ void addSettingOptions(CLI::App &App, SettingOptions &To) {
            F.option(),
            [&To, &F](double Value) { To.Values.emplace_back(&F, Value); },
            fmt::format("{} (default {})", What, F.get(Default)))
-        ->option_text(F.isWhole() ? "UINT" : "FLOAT")
+        ->option_text(F.isWhole() ? "N" : "X")
         ->check(CLI::Validator(
             [&F](const std::string &Text) {
               double Value = 0;

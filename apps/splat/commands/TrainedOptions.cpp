@@ -17,13 +17,16 @@ void addTrainedOptions(CLI::App &App, TrainedArguments &A) {
                            "Photographs with poses: COLMAP, NeRF-synthetic, "
                            "transforms.json"))
       ->required();
+  HelpGroup Group(App, "Training");
   App.add_option(
          "--iterations", S.Iterations,
          fmt::format("Total number of iterations (default {})", S.Iterations))
       ->check(isIterations());
+  Group.next("Photographs");
   App.add_option("--downscale", R.Downscale,
                  "Downsampling factor of the photographs (default 1)")
       ->check(isBetween(1, 64));
+  Group.next("Training");
   App.add_option("--max-gaussians", S.MostGaussians,
                  fmt::format("Maximum number of Gaussians (default {})",
                              S.MostGaussians))
@@ -32,11 +35,13 @@ void addTrainedOptions(CLI::App &App, TrainedArguments &A) {
             {MomentsChoice::Auto, MomentsChoice::Device, MomentsChoice::Host},
             "Memory of Adam's moments; results are bit-identical. auto: on the "
             "host if the device's memory is too small for --max-gaussians");
+  Group.next("Photographs");
   App.add_option("--exclude", R.Read.Exclude,
                  "Exclude this picture; may be repeated")
       ->allow_extra_args(false);
   addHoldOutOption(App, R.Read.HoldOut);
-  addOutsideOption(App, R.Read.AllowOutside);
+  addPlaceOptions(App, R.Read);
+  Group.next("Training");
   App.add_option("--batch", R.Run.Batch,
                  "Views per iteration, distributed over the processes that "
                  "mpirun started, each with its own device (default 1)")
@@ -53,16 +58,20 @@ void addTrainedOptions(CLI::App &App, TrainedArguments &A) {
                "Use a random background for each view of an iteration; "
                "--background then applies to held-out views only");
   addMasksOption(App, R.Run.Masks);
+  Group.next("Photographs");
   App.add_flag(
       "--distorted",
       [&R](std::int64_t) { R.Run.Pictures = LensOf::Photograph; },
       "Train with the lens distortion of the photographs instead of "
       "undistorting them");
+  Group.next("Picture");
   addProjectionOption(App, R.Run.Through);
   App.add_flag(
       "--antialiased", R.Run.Antialiased,
       "Compensate opacities for the dilation; the scene's file records this");
   addRulesOption(App, R.Convention);
+  addNearOption(App, R.Run.Near);
+  Group.next("Training");
   takesFile(App.add_option("--from", R.From,
                            "Start from the scene, the moments and the "
                            "iteration of another run's checkpoint"));
@@ -70,6 +79,7 @@ void addTrainedOptions(CLI::App &App, TrainedArguments &A) {
 }
 
 void addTrainPathOptions(CLI::App &App, TrainRequest &R) {
+  const HelpGroup Group(App, "Accuracy and speed");
   addPathOption(App, R.Blending.Kind,
                 "Unit that runs blending and its backward pass: the rasterizer "
                 "or the cores");
@@ -105,6 +115,8 @@ Expected<Success> checkTrained(const TrainRequest &R) {
   if (R.Run.Pictures == LensOf::Photograph && looksAtDepths(R.Run.Settings))
     return usage("--depth-weight: the depth loss needs undistorted pictures, "
                  "expected no --distorted");
+  if (auto Checked = checkNear(R.Run.Near); !Checked)
+    return Checked;
   for (const float V : R.Run.Background)
     if (!(V >= 0 && V <= 1))
       return usage(

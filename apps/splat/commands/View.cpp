@@ -3,6 +3,7 @@
 #include "commands/DeviceArguments.h"
 #include "commands/SceneArguments.h"
 #include "io/Cameras.h"
+#include "picture/SceneUnit.h"
 #include "view/Server.h"
 #include "view/Session.h"
 #include "vorion/support/CommandLine.h"
@@ -25,12 +26,15 @@ namespace {
 struct ViewArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
-  std::string Device, Kernels, Size = "480x272";
+  std::string Device, Kernels, Size;
   int Port = 0;
 };
 
-/// Reads WIDTHxHEIGHT.
-Expected<std::pair<int, int>> parseSize(const std::string &Text) {
+/// Reads WIDTHxHEIGHT, or nothing.
+Expected<std::optional<std::pair<int, int>>>
+parseSize(const std::string &Text) {
+  if (Text.empty())
+    return std::optional<std::pair<int, int>>();
   int Width = 0, Height = 0, End = 0;
   const int Read =
       std::sscanf(Text.c_str(), "%4dx%4d%n", &Width, &Height, &End);
@@ -42,7 +46,7 @@ Expected<std::pair<int, int>> parseSize(const std::string &Text) {
                              "pixels each",
                              Text, MostViewed),
                  ExitCode::Usage};
-  return std::pair(Width, Height);
+  return std::optional(std::pair(Width, Height));
 }
 
 Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
@@ -61,12 +65,11 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
                    .Reading = Dropped.Options,
                    .ReadingWords = wordsOf(Dropped),
                    .Cameras = {},
-                   .Width = Size->first,
-                   .Height = Size->second};
+                   .Size = *Size};
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
-  auto Cameras = allCameras(A.Cameras, File->Gaussians);
+  auto Cameras = allCameras(A.Cameras, *File);
   if (!Cameras)
     return Cameras.error();
   S.ThroughLens = std::ranges::any_of(
@@ -74,30 +77,39 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   // Of a capture, the page may switch to the lenses that photographs have.
   CameraArguments OfPhotographs = A.Cameras;
   OfPhotographs.Distorted = true;
-  auto Photographs = allCameras(OfPhotographs, File->Gaussians);
+  auto Photographs = allCameras(OfPhotographs, *File);
   S.Cameras = std::move(Photographs ? *Photographs : *Cameras);
   // Who looks around does so at one moment.
   for (Camera &C : S.Cameras)
     C.Optics.Shutter.reset();
-  const Vector Up = upOf(A.Cameras, S.Cameras, File->Gaussians);
+  std::optional<float> Near;
+  prepareToDraw(File->Gaussians, S.Cameras, Rules::Inria, Near);
+  const Vector Up = upOf(A.Cameras, S.Cameras, *File);
   const std::filesystem::path Path(A.Scene.Path);
   std::string Name = printable(
       (Path.has_filename() ? Path : Path.parent_path()).filename().string());
-  ShownScene First{std::move(Name), A.Scene.Path, wordsOf(A.Scene),
-                   std::move(*File), Up};
+  ShownScene First{.Name = std::move(Name),
+                   .Path = A.Scene.Path,
+                   .Words = wordsOf(A.Scene),
+                   .File = std::move(*File),
+                   .Up = Up,
+                   .Near = Near};
   const auto Shown = Session::open(std::move(S), std::move(First));
   if (!Shown)
     return Shown.error();
-  const auto Listening = Server::listen(A.Port, **Shown);
+  const auto Listening = listenFor(A.Port, **Shown);
   if (!Listening)
     return Listening.error();
-  (*Listening)->serve([&] {
-    printOut("splat view: {}\n", (*Listening)->address());
-    printNote(
-        "open this address in a browser on this computer; Ctrl-C exits\n");
-    // Who waits for the address may read it from a pipe.
-    std::fflush(stdout);
-  });
+  (*Listening)
+      ->serve(
+          [&] {
+            printOut("splat view: {}\n", (*Listening)->address());
+            printNote("open this address in a browser on this computer; Ctrl-C "
+                      "exits\n");
+            // Who waits for the address may read it from a pipe.
+            std::fflush(stdout);
+          },
+          [&] { (*Shown)->giveUp(); });
   return Success{};
 }
 
@@ -112,8 +124,8 @@ Runner addView(CLI::App &App) {
       ->check(isBetween(0, 65535));
   App.add_option(
          "--size", A->Size,
-         "Resolution of a picture while the camera is at rest (default " +
-             A->Size + ")")
+         "Resolution of a picture while the camera is at rest (default: that "
+         "of the window)")
       ->option_text("WIDTHxHEIGHT");
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->Kernels);

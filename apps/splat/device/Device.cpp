@@ -141,6 +141,7 @@ Expected<Device> Device::open(const std::string &Wanted,
     return clError("creating a context on " + D.Name, Status);
   for (const auto &[Queue, Properties] :
        {std::pair(&D.Queue, cl::QueueProperties::None),
+        std::pair(&D.CopyQueue, cl::QueueProperties::None),
         std::pair(&D.ProfiledQueue, cl::QueueProperties::Profiling)}) {
     *Queue = cl::CommandQueue(D.Context, D.Handle, Properties, &Status);
     if (Status != CL_SUCCESS)
@@ -163,6 +164,9 @@ Expected<Device> Device::open(const std::string &Wanted,
     cl_uint Warps = 1;
     if (D.Handle.getInfo(CL_DEVICE_WARPS_PER_CORE_VORION, &Warps) == CL_SUCCESS)
       D.WarpsPerCore = Warps;
+    cl_uint Engines = 0;
+    if (D.Handle.getInfo(CL_DEVICE_DMA_ENGINES_VORION, &Engines) == CL_SUCCESS)
+      D.CopiesOverlap = Engines != 0;
   }
   return D;
 }

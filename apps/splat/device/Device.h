@@ -42,6 +42,9 @@ public:
   const cl::CommandQueue &queue(bool Profiled = false) const {
     return Profiled ? ProfiledQueue : Queue;
   }
+  /// A queue whose commands wait for their events alone, for copies beside
+  /// kernels.
+  const cl::CommandQueue &copyQueue() const { return CopyQueue; }
   const cl::Device &handle() const { return Handle; }
   /// The options that it was opened with.
   const DeviceOptions &options() const { return Options; }
@@ -61,6 +64,8 @@ public:
   /// Work-items that a core executes in lockstep, with ordered accesses to
   /// local memory (docs/abi.md); 1 for a device without a specified order.
   unsigned lanes() const { return Lanes; }
+  /// Whether copies can overlap kernels in simulated time.
+  bool copiesOverlap() const { return CopiesOverlap; }
   uint64_t globalBytes() const { return GlobalBytes; }
   uint64_t largestAllocation() const { return LargestAllocation; }
 
@@ -85,9 +90,10 @@ private:
                                       ///< messages to it
   cl::Device Handle;
   cl::Context Context;
-  cl::CommandQueue Queue, ProfiledQueue;
+  cl::CommandQueue Queue, ProfiledQueue, CopyQueue;
   std::string Name;
   unsigned ComputeUnits = 1, WarpsPerCore = 1, Lanes = 1;
+  bool CopiesOverlap = false;
   uint64_t GlobalBytes = 0, LargestAllocation = 0;
   clGetEventInfoVORION_fn EventInfo = nullptr;
   TimeCheck CheckTime;

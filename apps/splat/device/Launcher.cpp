@@ -189,11 +189,12 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
   const Clock::time_point Start = Clock::now();
   cl::Event Done;
   cl_int Status = Dev.queue(Profiled).enqueueNDRangeKernel(
-      K, cl::NullRange, Global, Local, nullptr, &Done);
+      K, cl::NullRange, Global, Local, before(), &Done);
   if (Status != CL_SUCCESS) {
     Failure = memoryError("starting kernel " + Name, Status);
     return;
   }
+  setLast(Done);
   {
     // A kernel is compiled when it is started first; then it runs.
     std::unique_ptr<CompileNotice> Notice;
@@ -343,8 +344,11 @@ void Launcher::write(std::string_view What, const cl::Buffer &To,
   if (Failure || Bytes == 0)
     return;
   countCopy(Bytes);
+  cl::Event Done;
   checkCopy(What, "to",
-            Dev.queue().enqueueWriteBuffer(To, CL_TRUE, 0, Bytes, From));
+            Dev.queue().enqueueWriteBuffer(To, CL_TRUE, 0, Bytes, From,
+                                           before(), &Done));
+  setLast(Done);
 }
 
 void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
@@ -352,37 +356,79 @@ void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
   if (Failure || Bytes == 0)
     return;
   countCopy(Bytes);
+  cl::Event Done;
   checkCopy(What, "from",
-            Dev.queue().enqueueReadBuffer(From, CL_TRUE, Offset, Bytes, To));
+            Dev.queue().enqueueReadBuffer(From, CL_TRUE, Offset, Bytes, To,
+                                          before(), &Done));
+  setLast(Done);
 }
 
-cl_int Launcher::mapped(const cl::Buffer &B, cl_map_flags Flags, uint64_t Words,
+cl_int Launcher::mapped(const cl::Buffer &B, uint64_t Words,
                         const std::function<void(std::span<float>)> &Use) {
   countCopy(4 * Words);
   const cl::CommandQueue &Queue = Dev.queue();
   cl_int Status = CL_SUCCESS;
-  void *const At = Queue.enqueueMapBuffer(B, CL_TRUE, Flags, 0, 4 * Words,
-                                          nullptr, nullptr, &Status);
+  void *const At =
+      Queue.enqueueMapBuffer(B, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0,
+                             4 * Words, before(), nullptr, &Status);
   if (Status != CL_SUCCESS)
     return Status;
   Use({static_cast<float *>(At), Words});
-  Status = Queue.enqueueUnmapMemObject(B, At);
-  return Status == CL_SUCCESS ? Queue.finish() : Status;
+  cl::Event Done;
+  Status = Queue.enqueueUnmapMemObject(B, At, nullptr, &Done);
+  if (Status != CL_SUCCESS)
+    return Status;
+  setLast(Done);
+  return Done.wait();
 }
 
 void Launcher::writeInPlace(std::string_view What, const cl::Buffer &To,
                             uint64_t Words,
                             const std::function<void(std::span<float>)> &Fill) {
   if (!Failure && Words != 0)
-    checkCopy(What, "to",
-              mapped(To, CL_MAP_WRITE_INVALIDATE_REGION, Words, Fill));
+    checkCopy(What, "to", mapped(To, Words, Fill));
 }
 
 void Launcher::readInPlace(
     std::string_view What, const cl::Buffer &From, uint64_t Words,
     const std::function<void(std::span<const float>)> &Use) {
-  if (!Failure && Words != 0)
-    checkCopy(What, "from", mapped(From, CL_MAP_READ, Words, Use));
+  finishReading(startReading(What, From, Words), Use);
+}
+
+PendingRead Launcher::startReading(std::string_view What,
+                                   const cl::Buffer &From, uint64_t Words) {
+  PendingRead Read{std::string(What), From, {}, nullptr, Words};
+  if (Failure || Words == 0)
+    return Read;
+  countCopy(4 * Words);
+  cl_int Status = CL_SUCCESS;
+  Read.At = static_cast<const float *>(Dev.copyQueue().enqueueMapBuffer(
+      From, CL_FALSE, CL_MAP_READ, 0, 4 * Words, before(), &Read.Done,
+      &Status));
+  checkCopy(What, "from", Status);
+  return Read;
+}
+
+void Launcher::finishReading(
+    const PendingRead &Read,
+    const std::function<void(std::span<const float>)> &Use) {
+  if (Failure || !Read.At)
+    return;
+  cl_int Status = Read.Done.wait();
+  if (Status == CL_SUCCESS) {
+    Use({Read.At, Read.Words});
+    cl::Event Done;
+    Status = Dev.copyQueue().enqueueUnmapMemObject(
+        Read.From, const_cast<float *>(Read.At), nullptr, &Done);
+    if (Status == CL_SUCCESS)
+      Status = Done.wait();
+  }
+  checkCopy(Read.What, "from", Status);
+}
+
+void Launcher::settle() {
+  if (!Failure)
+    checkCopy("data", "to", Dev.queue().finish());
 }
 
 } // namespace vorion::splat

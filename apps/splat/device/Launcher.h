@@ -47,6 +47,15 @@ struct StageReport {
   uint64_t CopiedBytes = 0;
 };
 
+/// A copy from the device that was begun. Keeps the buffer.
+struct PendingRead {
+  std::string What; ///< for errors
+  cl::Buffer From;
+  cl::Event Done;
+  const float *At = nullptr; ///< null if there is nothing to read
+  uint64_t Words = 0;
+};
+
 /// Runs kernels synchronously. After the first error, all further calls do
 /// nothing, so that callers check \c failure() only before they use data that
 /// was read back. Not thread-safe.
@@ -131,7 +140,17 @@ public:
   void readInPlace(std::string_view What, const cl::Buffer &From,
                    uint64_t Words,
                    const std::function<void(std::span<const float>)> &Use);
+  /// The same in two steps. What is run between them does not wait for the
+  /// copy, and must not change the buffer.
+  PendingRead startReading(std::string_view What, const cl::Buffer &From,
+                           uint64_t Words);
+  void finishReading(const PendingRead &Read,
+                     const std::function<void(std::span<const float>)> &Use);
   /// @}
+
+  /// Ends an untimed section, such as an upload: later kernels do not wait for
+  /// its copies.
+  void settle();
 
   /// Peak size of the buffers from \c allocate.
   uint64_t mostBytes() const { return MostBytes; }
@@ -165,9 +184,15 @@ private:
   Error memoryError(std::string_view What, cl_int Status) const;
   Error launchError(const std::string &Name, cl_int Status) const;
   void account(KernelReport Report);
-  /// Maps \p Words of \p B with \p Flags during \p Use.
-  cl_int mapped(const cl::Buffer &B, cl_map_flags Flags, uint64_t Words,
+  /// Maps \p Words of \p B, whose contents are lost, during \p Use.
+  cl_int mapped(const cl::Buffer &B, uint64_t Words,
                 const std::function<void(std::span<float>)> &Use);
+  /// What commands wait for that are enqueued now: all before them but copies
+  /// that were begun, on whichever queue.
+  const std::vector<cl::Event> *before() const {
+    return Last.empty() ? nullptr : &Last;
+  }
+  void setLast(const cl::Event &E) { Last.assign(1, E); }
   /// Records the status of a copy of \p What; \p Way is "to" or "from".
   void checkCopy(std::string_view What, std::string_view Way, cl_int Status);
   void countCopy(uint64_t Bytes);
@@ -188,7 +213,8 @@ private:
   std::optional<Error> Failure;
   std::string BuildLog;
   bool Profiled = false;
-  bool TimeChecked = false; ///< Device::timeCheck()
+  std::vector<cl::Event> Last; ///< of the last command, if there was one
+  bool TimeChecked = false;    ///< Device::timeCheck()
   std::vector<StageReport> Stages;
   std::chrono::steady_clock::time_point StageStart;
   std::string Remedy = "a smaller scene or picture";

@@ -44,10 +44,10 @@ Expected<std::string> hashPrograms(const std::string &Splat) {
   }
   std::string Hashes;
   for (const auto &[Name, File] : Files) {
-    const auto Bytes = readRegularFile(File.string());
-    if (!Bytes)
-      return Bytes.error();
-    Hashes += fmt::format("{:016x} {}\n", xxh3(*Bytes), Name);
+    const auto Hash = xxh3OfFile(File.string());
+    if (!Hash)
+      return Hash.error();
+    Hashes += fmt::format("{:016x} {}\n", *Hash, Name);
   }
   return fnv1a64(Hashes);
 }

@@ -60,8 +60,11 @@ template <typename Visitor> void visit(TimeReport &R, const Visitor &Visit) {
   Visit("cores", R.Cores);
   Visit("rasterizers", R.Rasterizers);
   Visit("pixel_units", R.PixelUnits);
+  Visit("command_processors", R.CommandProcessors);
+  Visit("dma_engines", R.DmaEngines);
   Visit("l2", R.L2);
   Visit("llc", R.Llc);
+  Visit("link", R.Link);
   Visit("dram", R.Dram);
   Visit("activities", R.Activities);
   Visit("stale_loads", R.StaleLoads);
@@ -162,8 +165,11 @@ TimeReport &TimeReport::operator+=(const TimeReport &Later) {
   addEach(Cores, Later.Cores);
   addEach(Rasterizers, Later.Rasterizers);
   addEach(PixelUnits, Later.PixelUnits);
+  addEach(CommandProcessors, Later.CommandProcessors);
+  addEach(DmaEngines, Later.DmaEngines);
   addEach(L2, Later.L2);
   Llc += Later.Llc;
+  Link += Later.Link;
   Dram += Later.Dram;
   for (std::size_t I = 0;
        I != std::min(Activities.size(), Later.Activities.size()); ++I)

@@ -31,6 +31,7 @@ template <typename Count> struct UnitCounts {
   uint64_t operator[](Count C) const {
     return Values[static_cast<std::size_t>(C)];
   }
+  bool operator==(const UnitCounts &) const = default;
   UnitCounts &operator+=(const UnitCounts &Other) {
     for (std::size_t I = 0; I != Values.size(); ++I)
       Values[I] += Other.Values[I];
@@ -38,7 +39,8 @@ template <typename Count> struct UnitCounts {
   }
 };
 
-/// The cost of launches and copies.
+/// The cost of launches and copies beside the cycles; 0 if they are part of
+/// these.
 struct HostTiming {
   unsigned LaunchNs = 0, CopyNs = 0;
   unsigned CopyMbps = 0; ///< megabytes per second
@@ -77,8 +79,14 @@ struct TimeReport {
   std::vector<UnitCounts<CoreCount>> Cores;
   std::vector<UnitCounts<RasterCount>> Rasterizers;
   std::vector<UnitCounts<PixelCount>> PixelUnits;
+  /// \name Empty if the time of launches and copies is that of Host
+  /// @{
+  std::vector<UnitCounts<CommandCount>> CommandProcessors;
+  std::vector<UnitCounts<DmaCount>> DmaEngines;
+  /// @}
   std::vector<UnitCounts<CacheCount>> L2; ///< slices
   UnitCounts<CacheCount> Llc;
+  UnitCounts<LinkCount> Link; ///< all 0 without a link to the L2
   UnitCounts<DramCount> Dram;
   std::vector<Activity> Activities;
   uint64_t StaleLoads = 0;   ///< loads from data caches that missed a write

@@ -30,6 +30,7 @@ TimeReport sample() {
   R.PixelUnits.resize(1);
   R.L2.resize(1);
   R.Llc.Values[0] = 7;
+  R.Link.Values[0] = 6;
   R.Dram.Values[0] = 8;
   R.Activities = {{"core", "fetch", 9}};
   R.StaleLoads = 4;
@@ -72,6 +73,7 @@ TEST(TimeReport, CountsAddUpAndTheMachineStays) {
   EXPECT_EQ(Sum->Areas.Exponential[0], 10.5);
   EXPECT_EQ(Sum->Cores[1][CoreCount::Ended], 2 * uint64_t(CoreCount::Ended));
   EXPECT_EQ(Sum->Llc[CacheCount::Reads], 14U);
+  EXPECT_EQ(Sum->Link[LinkCount::BytesToL2], 12U);
   EXPECT_EQ(Sum->Dram[DramCount::ReadBursts], 16U);
   EXPECT_EQ(Sum->Activities[0].Count, 18U);
   EXPECT_EQ(Sum->StaleLoads, 8U);

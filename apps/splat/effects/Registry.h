@@ -23,6 +23,7 @@ extern const Effect Needles;
 extern const Effect Crop;
 extern const Effect Windows;
 extern const Effect RayOrder;
+extern const Effect Mesh, Texture, Light, Layers; // Mesh.cpp
 /// @}
 
 /// \name Machine effects

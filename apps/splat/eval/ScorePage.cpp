@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace vorion::splat {
@@ -43,6 +42,7 @@ Expected<std::string> scorePageOf(const ScorePage &P,
   nlohmann::ordered_json Data = scoreJson(Scores);
   Data["scene"] = P.Scene;
   Data["made"] = P.Made;
+  Data["training"] = P.Training;
   for (std::size_t I = 0; I < Scores.size(); ++I) {
     const Photo &Drawn = Scores[I].Drawn, &Wanted = Views[I].View->Picture;
     const Photo Difference = differenceOf(Drawn, Wanted);

@@ -3,7 +3,7 @@
 
 #include "eval/Evaluation.h"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +17,8 @@ std::string_view scoreTemplate();
 struct ScorePage {
   std::string Scene;             ///< its name, for people
   std::vector<std::string> Made; ///< lines for the foot
+  /// Of the training (page/TrainingsPage.h); null if there was none.
+  nlohmann::ordered_json Training = nullptr;
 };
 
 /// The page of \p Scores, of the views \p Views in the same order.

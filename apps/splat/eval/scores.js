@@ -1,12 +1,12 @@
 // The page of `splat eval --html` and `splat train --html`: each view's picture, photograph and their difference.
 
 const { views, scene } = data; // views: { name, held_out, resolution, psnr8_db, ssim, ms_ssim, drawn, photograph, difference }
-const state = { view: 0, sort: { n: 1, down: false } };
+const state = { selected: views[0].name, table: null, sort: { n: 1, down: false } };
 
 const decibels = v => v.psnr8_db === null ? 'equal' : number(v.psnr8_db, 3);
 const share = value => value === null ? '–' : number(value, 5);
 
-function figures() {
+function means() {
   for (const [of, mean] of [['held out', data.mean_held_out], ['in training', data.mean_in_training]]) {
     if (!mean) continue;
     for (const [text, name] of [[`${decibels(mean)} dB`, 'PSNR'], [share(mean.ssim), 'SSIM'], [share(mean.ms_ssim), 'MS-SSIM']])
@@ -15,10 +15,10 @@ function figures() {
 }
 
 function show() {
-  const v = views[state.view];
-  byId('view').value = state.view;
+  const v = views.find(one => one.name === state.selected);
+  byId('view').value = v.name;
   const parts = [['drawn', 'picture'], ['photograph', 'photograph'], ['difference', 'difference, four times as large']];
-  byId('pictures').replaceChildren(...parts.map(([key, text]) => element('figure', {},
+  byId('panel').replaceChildren(...parts.map(([key, text]) => element('figure', {},
     element('img', { src: v[key], alt: `${text} of ${v.name}`, width: v.resolution[0], height: v.resolution[1] }),
     element('figcaption', {}, text))));
 }
@@ -29,53 +29,50 @@ function table() {
     ['SSIM', v => v.ssim, v => share(v.ssim)], ['MS-SSIM', v => v.ms_ssim ?? 0, v => share(v.ms_ssim)],
     ['', v => v.held_out, v => v.held_out ? 'held out' : 'in training'],
   ];
-  drawColumns(byId('scores'), columns, views, state.sort, sort => { state.sort = sort; redraw(); }, (row, v) => {
-    row.classList.toggle('selected', v === views[state.view]);
-    row.addEventListener('click', () => select(views.indexOf(v)));
-  });
+  drawColumns(byId('scores'), columns, views, state.sort, sort => { state.sort = sort; redraw(); }, (row, v) => selects(row, v.name, 'scores'));
 }
 
-function select(n) {
-  state.view = n;
-  redraw();
-}
-
-function redraw() {
+const redraw = () => drawAround(() => {
   byId('chart-box').style.height = `${Math.min(640, 90 + 18 * views.length)}px`;
-  // A series a kind, so that the legend says what the colours are.
+  // A series a kind, so that the legend says what the colours are. A paper has no pictures below.
+  const isBelow = v => !onPaper && v.name === state.selected;
   const kinds = [
-    ['held out', seriesColour(0), (v, n) => n !== state.view && v.held_out],
-    ['in training', seriesColour(1), (v, n) => n !== state.view && !v.held_out],
-    ['pictures below', colour('chosen'), (v, n) => n === state.view],
+    ['held out', seriesColour(0), v => !isBelow(v) && v.held_out],
+    ['in training', seriesColour(1), v => !isBelow(v) && !v.held_out],
+    ['pictures below', colour('chosen'), isBelow],
   ].filter(([, , is]) => views.some(is));
   drawChart('chart', {
     type: 'bar',
     data: {
       labels: views.map(v => v.name),
       datasets: kinds.map(([label, backgroundColor, is]) => ({
-        label, backgroundColor, grouped: false, data: views.map((v, n) => (is(v, n) ? v.psnr8_db : null)),
+        label, backgroundColor, grouped: false, data: views.map(v => (is(v) ? v.psnr8_db : null)),
       })),
     },
     options: {
-      indexAxis: 'y', onClick: (_, hit) => { if (hit.length) select(hit[0].index); },
+      indexAxis: 'y', onClick: (_, hit) => { if (hit.length) select(views[hit[0].index].name); },
       plugins: { legend: { display: true, onClick: () => {} } },
       scales: { x: axis('PSNR of 8-bit values, dB'), y: { ticks: { autoSkip: true } } },
     },
   });
+  if (data.training) drawCurves([data.training]);
   show();
   table();
-}
+});
 
 openPage(() => {
   byId('lede').textContent = `${scene}: what it shows from the places of ${views.length} photographs.`;
   byId('lpips').textContent = data.lpips_note + '.';
-  figures();
-  fill(byId('view'), views.map((v, n) => [n, v.name]), n => select(Number(n)));
+  means();
+  byId('training').hidden = !data.training;
+  fill(byId('view'), views.map(v => [v.name, v.name]), name => select(name));
   redraw();
 }, redraw, () => {
   tryControls(['view']);
+  // Hidden, a canvas is empty.
+  document.querySelectorAll('[hidden] canvas').forEach(canvas => canvas.remove());
   byId('scores').tHead.querySelectorAll('th')[2].click();
   byId('scores').tBodies[0].rows[0].click();
-  if (document.querySelectorAll('#pictures img').length !== 3) throw new Error('three pictures are expected');
+  if (document.querySelectorAll('#panel img').length !== 3) throw new Error('three pictures are expected');
   return `${views.length} views`;
 });

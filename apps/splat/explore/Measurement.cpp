@@ -1,8 +1,8 @@
 #include "explore/Measurement.h"
 
 #include "device/ClockedMachine.h"
-#include "explore/Bottleneck.h"
 #include "io/Mean.h"
+#include "render/Bottleneck.h"
 #include "study/Process.h"
 #include "vorion/support/JsonShape.h"
 

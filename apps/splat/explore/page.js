@@ -57,6 +57,7 @@ function drawPlot() {
   const figures = shown.map(m => m[state.size]);
   const points = shown.map(m => ({ x: value(m[state.size], state.across), y: value(m[state.size], state.up), name: m.machine }));
   drawPoints('plot', points, {
+    isNamed: p => kindOf(data.machines.find(m => m.machine === p.name)) !== 'soft',
     colours: shown.map(m => colour(kindOf(m))), dots: { pointRadius: shown.map(m => (kindOf(m) === 'soft' ? 3 : 5)) },
     scales: { x: axisAround(state.across, figures), y: axisAround(state.up, figures) }, label: p => p.name.split(','),
   });
@@ -105,7 +106,7 @@ const taskOf = view => (view.view ? [view.part, view.view].filter(word => word).
 // A stage's place: work for the traffic that it makes, and work, as shares of the most. What moves nothing is drawn at the right edge.
 const FURTHEST = 1e4;
 const placesOf = m => m.views.flatMap(view => view.stages.map(stage => ({
-  x: Math.min(FURTHEST, stage.memory_share ? stage.work_share / stage.memory_share : FURTHEST), y: stage.work_share, view: taskOf(view), stage,
+  x: Math.min(FURTHEST, stage.memory_share ? stage.work_share / stage.memory_share : FURTHEST), y: stage.work_share, view: taskOf(view), stage, name: m.views.length > 1 ? `${stage.name}, ${taskOf(view)}` : stage.name,
 }))).filter(p => p.x > 0 && p.y > 0);
 
 function drawRoof() {
@@ -113,13 +114,14 @@ function drawRoof() {
   const ofChosen = isJudged(chosen, 'whole') ? placesOf(chosen) : [], ofBase = placesOf(base);
   const all = [...ofChosen, ...ofBase];
   const [left, low] = ['x', 'y'].map(key => Math.min(0.1, ...all.map(p => p[key])) / 1.5), right = Math.max(10, ...all.map(p => p.x)) * 1.5;
-  const dots = (places, which, filled) => ({
-    data: places, pointRadius: filled ? 5 : 7, pointBorderWidth: 2, pointBorderColor: colour(which), pointBackgroundColor: filled ? colour(which) : 'transparent',
+  const dots = (label, places, which, filled) => ({
+    label, data: places, pointRadius: filled ? 5 : 7, pointBorderWidth: 2, pointBorderColor: colour(which), pointBackgroundColor: filled ? colour(which) : 'transparent',
   });
-  const roof = lineOf([{ x: left, y: left }, { x: 1, y: 1 }, { x: right, y: 1 }], 'mark');
+  const roof = lineOf('roof', [{ x: left, y: left }, { x: 1, y: 1 }, { x: right, y: 1 }], 'mark');
   drawChart('roof', {
     type: 'scatter',
-    data: { datasets: [dots(ofChosen, 'chosen', true), dots(ofBase, 'ink', false), roof] },
+    data: { datasets: [dots(chosen.machine, ofChosen, 'chosen', true), dots('base', chosen === base ? [] : ofBase, 'ink', false), roof] },
+    plugins: [pointNames(p => p.name)],
     options: {
       scales: {
         x: axis('work / traffic, fractions of peak', { type: 'logarithmic', min: left, max: right, ticks: { maxRotation: 0 } }),
@@ -156,9 +158,7 @@ function drawWorth() {
   // Why one cannot be stands where its first figure would.
   const text = columns[1][2];
   columns[1][2] = w => (w.refused ? `impossible: ${w.refused}` : text(w));
-  drawColumns(byId('worth'), columns, data.worth, state.worth, sort => { state.worth = sort; drawWorth(); }, (row, w) => {
-    row.addEventListener('click', () => select(w.machine));
-  });
+  drawColumns(byId('worth'), columns, data.worth, state.worth, sort => { state.worth = sort; draw(); }, (row, w) => selects(row, w.machine, 'worth'));
 }
 
 function drawPairs() {
@@ -206,14 +206,14 @@ function sayHowJoined() {
     'Shares are those of the weighted times or energies.';
 }
 
-function draw() {
+const draw = () => drawAround(() => {
   drawPlot();
   drawParts();
   drawDetails();
   drawRoof();
   drawWorth();
   drawTable();
-}
+});
 
 function start() {
   const choose = (id, choices) => {
@@ -232,8 +232,9 @@ function start() {
 
 function tryOut() {
   const points = trySelecting(0, 'details');
-  if (!charts.roof.data.datasets[1].data.length) throw new Error('no stage under the roof');
-  if (charts.roof.data.datasets[1].data.some(p => p.y > 1 || p.stage.memory_share > 1)) throw new Error('a stage is above the roof');
+  const stages = charts.roof.data.datasets.slice(0, 2).flatMap(d => d.data);
+  if (!stages.length) throw new Error('no stage under the roof');
+  if (stages.some(p => p.y > 1 || p.stage.memory_share > 1)) throw new Error('a stage is above the roof');
   if (!/^The base is .* MHz, clock version \d+\. /.test(byId('summary').textContent)) throw new Error('the base has no clock');
   if (parts.length !== Math.max(0, byId('parts').querySelectorAll('tr').length - 1)) throw new Error('not every part has a row');
   tryControls(['across', 'up', 'size']);

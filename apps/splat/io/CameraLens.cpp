@@ -37,6 +37,11 @@ public:
     readModel();
     readNumbers();
     readLists();
+    const std::string_view Range = Optics.Model->ExpectedCoefficients(Optics.K);
+    if (!Range.empty())
+      fail(fmt::format("the coefficients of the camera model {} are out of "
+                       "range, expected {}",
+                       Called, Range));
     if (Problem)
       return Error{"", *Problem};
     return simplified(Optics);

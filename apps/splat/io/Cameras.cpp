@@ -295,8 +295,7 @@ Expected<Camera> readCamera(const std::string &Path, const std::string &View) {
   return std::move(Cameras->front());
 }
 
-Expected<Success> writeCameras(const std::string &Path,
-                               const std::vector<Camera> &Cameras) {
+Json camerasJson(const std::vector<Camera> &Cameras) {
   Json Document = Json::array();
   for (const Camera &C : Cameras) {
     Json Record{{"id", C.Id},
@@ -318,7 +317,12 @@ Expected<Success> writeCameras(const std::string &Path,
     }
     Document.push_back(std::move(Record));
   }
-  return writeFileAtomically(Path, jsonText(Document, 1) + "\n");
+  return Document;
+}
+
+Expected<Success> writeCameras(const std::string &Path,
+                               const std::vector<Camera> &Cameras) {
+  return writeFileAtomically(Path, jsonText(camerasJson(Cameras), 1) + "\n");
 }
 
 } // namespace vorion::splat

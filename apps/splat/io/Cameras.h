@@ -69,6 +69,9 @@ Expected<Camera> readCamera(const std::string &Path, const std::string &View);
 Expected<std::vector<Camera>>
 readCameras(const std::string &Path, const std::vector<std::string> &Views);
 
+/// \p Cameras as readCameras() reads them, with the same doubles.
+nlohmann::json camerasJson(const std::vector<Camera> &Cameras);
+
 /// Writes \p Cameras, with cx and cy, so that reading reproduces the same
 /// doubles.
 Expected<Success> writeCameras(const std::string &Path,

@@ -153,6 +153,13 @@ TEST(Cameras, WhatIsNotHereIsRefusedByName) {
   Expect({{"camera_model", "DIVISION"}, {"k1", 0.1}},
          "key k1 sets the distortion coefficient k1, which the camera model "
          "DIVISION does not have");
+  Expect({{"camera_model", "eucm"}, {"alpha", 0.5}},
+         "the coefficients of the camera model EUCM are out of range, expected "
+         "alpha from 0 to 1 and beta above 0");
+  Expect({{"camera_model", "EUCM"}, {"alpha", 1.5}, {"beta", 1}},
+         "out of range");
+  Expect({{"camera_model", "EUCM"}, {"dist_coeffs", {0.5, 1, 0}}},
+         "at most 2 numbers");
   Expect({{"camera_model", "radial_fisheye"}, {"p1", 0.1}},
          "model RADIAL_FISHEYE does not have");
   Expect({{"camera_model", 3}}, "key camera_model is 3, expected a camera "
@@ -210,6 +217,10 @@ TEST(Cameras, LensesAreReadByAllTheirNames) {
          {-0.1});
   Expect({{"camera_model", "DIVISION"}, {"dist_coeffs", {0.2}}},
          &lenses::Division, {0.2});
+  Expect({{"camera_model", "eucm"}, {"alpha", 0.5}, {"beta", 1.5}},
+         &lenses::Eucm, {0.5, 1.5});
+  Expect({{"camera_model", "EUCM"}, {"dist_coeffs", {1, 0.5}}}, &lenses::Eucm,
+         {1, 0.5});
   Expect({{"camera_model", "OPENCV"}, {"k1", 0.1}, {"r8", 0.2}},
          &lenses::OpenCv, {0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.2});
   Expect({{"camera_model", "pinhole"},

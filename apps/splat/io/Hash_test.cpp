@@ -15,7 +15,18 @@ TEST(Hash, GivesThePublishedValues) {
 
 // Of XXH3_64bits, too.
 TEST(Hash, GivesThePublishedValueOfNoBytesByXxh3) {
-  EXPECT_EQ(xxh3({}), 0x2d06800538d394c2U);
+  EXPECT_EQ(Xxh3().value(), 0x2d06800538d394c2U);
+}
+
+// Larger than a chunk of what is read.
+TEST(Hash, OfAFileIsThatOfItsBytes) {
+  const TestFolder Folder;
+  const std::string Bytes(200000, 'x');
+  Folder.write("x", Bytes);
+  Xxh3 Hash;
+  Hash.add(std::as_bytes(std::span(Bytes)));
+  EXPECT_EQ(*xxh3OfFile(Folder.path("x")), Hash.value());
+  EXPECT_FALSE(xxh3OfFile("/nonexistent-folder/x"));
 }
 
 TEST(Hash, OfAMissingFileIsAnError) {

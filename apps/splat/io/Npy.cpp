@@ -30,6 +30,8 @@ static_assert(MostHeader < MostNpyStart);
 std::size_t elementSize(std::string_view Type) {
   if (Type == "b1" || Type == "u1")
     return 1;
+  if (Type == "i2" || Type == "u2")
+    return 2;
   if (Type == "f4" || Type == "i4" || Type == "u4")
     return 4;
   if (Type == "f8" || Type == "i8")
@@ -65,6 +67,10 @@ template <typename To> std::vector<To> convertArray(const NpyArray &A) {
     return convert<int64_t, To>(A.Bytes);
   if (A.Type == "u4")
     return convert<uint32_t, To>(A.Bytes);
+  if (A.Type == "i2")
+    return convert<int16_t, To>(A.Bytes);
+  if (A.Type == "u2")
+    return convert<uint16_t, To>(A.Bytes);
   if (A.Type == "u1" || A.Type == "b1")
     return convert<uint8_t, To>(A.Bytes);
   return {};
@@ -163,17 +169,26 @@ std::vector<double> NpyArray::toDoubles() const {
 std::vector<float> NpyArray::toFloats() const {
   return convertArray<float>(*this);
 }
+std::vector<int64_t> NpyArray::toIntegers() const {
+  return Type.starts_with('f') ? std::vector<int64_t>()
+                               : convertArray<int64_t>(*this);
+}
+
+std::vector<std::string> NpyArray::toTexts() const {
+  const std::size_t Each = elementSize(Type) / 4;
+  if (!Type.starts_with('U') || Each == 0)
+    return {};
+  const auto CodePoints = convert<uint32_t, uint32_t>(Bytes);
+  std::vector<std::string> Texts(CodePoints.size() / Each);
+  for (std::size_t N = 0; N != Texts.size(); ++N)
+    for (std::size_t I = N * Each; I != (N + 1) * Each && CodePoints[I]; ++I)
+      Texts[N] += CodePoints[I] < 0x80 ? static_cast<char>(CodePoints[I]) : '?';
+  return Texts;
+}
 
 std::string NpyArray::toText() const {
-  std::string Text;
-  if (!Type.starts_with('U'))
-    return Text;
-  for (const auto CodePoint : convert<uint32_t, uint32_t>(Bytes)) {
-    if (CodePoint == 0)
-      break;
-    Text += CodePoint < 0x80 ? static_cast<char>(CodePoint) : '?';
-  }
-  return Text;
+  const auto Texts = toTexts();
+  return Texts.empty() ? std::string() : Texts.front();
 }
 
 NpyArray NpyArray::of(std::vector<std::size_t> Shape,
@@ -235,7 +250,8 @@ Expected<NpyHeader> parseNpyHeader(const std::string &Where, Bytes Start) {
   const bool ByteOrder = Type.starts_with('<') || Type.starts_with('|');
   if (!ByteOrder || (elementSize(Type.substr(1)) == 0 && Type != "<U0"))
     return Error{Where, fmt::format("element type `{}`, expected little-endian "
-                                    "f4, f8, i4, i8, u1, u4, b1 or text",
+                                    "f4, f8, i2, i4, i8, u1, u2, u4, b1 or "
+                                    "text",
                                     Type.substr(0, 40))};
   if (Shape->size() > MostAxes)
     return Error{Where, fmt::format("an array of {} axes, expected at most {}",

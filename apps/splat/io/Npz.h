@@ -15,8 +15,8 @@ namespace vorion::splat {
 
 /// One array, C order, little endian.
 struct NpyArray {
-  /// NumPy's name of the element type without byte order: "f4", "f8", "i4",
-  /// "i8", "u1", "u4", "b1"; "U<n>" for text of n code points.
+  /// NumPy's name of the element type without byte order: "f4", "f8", "i2",
+  /// "i4", "i8", "u1", "u2", "u4", "b1"; "U<n>" for text of n code points.
   std::string Type;
   std::vector<std::size_t> Shape; ///< empty for a scalar
   std::vector<std::byte> Bytes;
@@ -26,6 +26,10 @@ struct NpyArray {
   std::vector<double> toDoubles() const;
   /// The elements converted to float; empty for text.
   std::vector<float> toFloats() const;
+  /// The elements of an array of integers; empty for others.
+  std::vector<int64_t> toIntegers() const;
+  /// The texts of a "U<n>" array, as toText(); empty for others.
+  std::vector<std::string> toTexts() const;
   /// The text of a scalar "U<n>" array (ASCII; other code points become '?').
   std::string toText() const;
 

@@ -4,6 +4,9 @@
 #include "vorion/support/FileKind.h"
 #include "vorion/support/Printable.h"
 
+#include <array>
+#include <csetjmp>
+#include <cstring>
 #include <fmt/format.h>
 #include <memory>
 #include <png.h>
@@ -24,23 +27,61 @@ Error damaged(const std::string &Where, const char *Kind, const char *Why) {
                              Kind, printable(Why))};
 }
 
-/// libpng's simplified reader, and its release.
-struct PngReader {
-  png_image Image{};
-
-  explicit PngReader(Bytes File) {
-    Image.version = PNG_IMAGE_VERSION;
-    png_image_begin_read_from_memory(&Image, File.data(), File.size());
-    // Values, not light: no conversion from 16-bit linear.
-    Image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-  }
-  ~PngReader() { png_image_free(&Image); }
-  PngReader(const PngReader &) = delete;
-  PngReader &operator=(const PngReader &) = delete;
-
-  /// A warning means that bytes were wrong (a checksum, say).
-  bool good() const { return PNG_IMAGE_FAILED(Image) == 0; }
+/// A PNG in memory for libpng: the part that it has not read, and what it
+/// reported as an error.
+struct PngSource {
+  Bytes Rest;
+  std::array<char, 80> Why{};
 };
+
+void takePng(png_structp Png, png_bytep To, std::size_t Size) {
+  auto &Source = *static_cast<PngSource *>(png_get_io_ptr(Png));
+  if (Size > Source.Rest.size())
+    png_error(Png, "the file is too short");
+  std::memcpy(To, Source.Rest.data(), Size);
+  Source.Rest = Source.Rest.subspan(Size);
+}
+
+[[noreturn]] void failPng(png_structp Png, png_const_charp Why) {
+  auto &Source = *static_cast<PngSource *>(png_get_error_ptr(Png));
+  std::strncpy(Source.Why.data(), Why, Source.Why.size() - 1);
+  png_longjmp(Png, 1);
+}
+void ignorePng(png_structp /*Png*/, png_const_charp /*Warning*/) {}
+
+/// Reads the size of a PNG, and its values as r, g, b, a to \p Rgba, which may
+/// be null. Of the values, only the number of bits is converted: libpng's
+/// simplified reader would apply the chunks gAMA, cHRM, sRGB and iCCP. False if
+/// libpng reported an error. libpng does so by longjmp, so no object of this
+/// function has a destructor.
+bool readPng(PngSource &Source, png_uint_32 &Width, png_uint_32 &Height,
+             std::byte *Rgba) {
+  png_structp Png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &Source,
+                                           failPng, ignorePng);
+  png_infop Info = Png ? png_create_info_struct(Png) : nullptr;
+  if (!Info || setjmp(png_jmpbuf(Png))) { // NOLINT(bugprone-*,cert-err52-cpp)
+    png_destroy_read_struct(&Png, &Info, nullptr);
+    return false;
+  }
+  png_set_read_fn(Png, &Source, takePng);
+  png_read_info(Png, Info);
+  Width = png_get_image_width(Png, Info);
+  Height = png_get_image_height(Png, Info);
+  if (Rgba) {
+    png_set_expand(Png); // palettes, fewer bits than 8, transparent colours
+    png_set_scale_16(Png);
+    png_set_gray_to_rgb(Png);
+    png_set_add_alpha(Png, 0xFF, PNG_FILLER_AFTER);
+    const int Passes = png_set_interlace_handling(Png);
+    png_read_update_info(Png, Info);
+    for (int Pass = 0; Pass < Passes; ++Pass)
+      for (std::size_t Y = 0; Y < Height; ++Y)
+        png_read_row(Png, reinterpret_cast<png_bytep>(Rgba) + 4 * Y * Width,
+                     nullptr);
+  }
+  png_destroy_read_struct(&Png, &Info, nullptr);
+  return true;
+}
 
 using Jpeg = std::unique_ptr<void, int (*)(void *)>;
 Jpeg makeJpeg() { return {tjInitDecompress(), tjDestroy}; }
@@ -70,12 +111,10 @@ Expected<Plane> sized(const std::string &Where, Bytes File, PhotoSize S) {
 }
 
 Expected<Plane> decodePng(const std::string &Where, Bytes File, Plane P) {
-  PngReader Png(File);
-  Png.Image.format = PNG_FORMAT_RGBA;
-  if (!Png.good() ||
-      !png_image_finish_read(&Png.Image, nullptr, P.Rgba.data(), 0, nullptr) ||
-      !Png.good())
-    return damaged(Where, "PNG", Png.Image.message);
+  PngSource Source{File};
+  png_uint_32 Width = 0, Height = 0;
+  if (!readPng(Source, Width, Height, P.Rgba.data()))
+    return damaged(Where, "PNG", Source.Why.data());
   return P;
 }
 
@@ -97,12 +136,12 @@ Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
   PhotoSize S;
   switch (fileKindOf(File)) {
   case FileKind::Png: {
-    const PngReader Png(File);
-    if (!Png.good())
-      return damaged(Where, "PNG", Png.Image.message);
-    if (Png.Image.width <= MaxImageSize && Png.Image.height <= MaxImageSize)
-      S = {static_cast<int>(Png.Image.width),
-           static_cast<int>(Png.Image.height)};
+    PngSource Source{File};
+    png_uint_32 Width = 0, Height = 0;
+    if (!readPng(Source, Width, Height, nullptr))
+      return damaged(Where, "PNG", Source.Why.data());
+    if (Width <= MaxImageSize && Height <= MaxImageSize)
+      S = {static_cast<int>(Width), static_cast<int>(Height)};
     break;
   }
   case FileKind::Jpeg: {

@@ -22,6 +22,27 @@ template <typename Action> auto withNumber(PlyType Type, Action Do) {
   return std::visit(Do, Zeros[static_cast<std::size_t>(Type)]);
 }
 
+} // namespace
+
+double loadNumber(Bytes Row, std::size_t At, PlyType Type) {
+  return withNumber(Type, [&](auto Zero) {
+    return static_cast<double>(load<decltype(Zero)>(Row, At));
+  });
+}
+
+void PlyListRows::next(const PlyProperty &Property, std::vector<double> *To) {
+  double Left = 1;
+  if (Property.CountType) {
+    Left = loadNumber(Rows, At, *Property.CountType);
+    At += sizeOf(*Property.CountType);
+  }
+  for (; Left > 0; --Left, At += sizeOf(Property.Type))
+    if (To)
+      To->push_back(loadNumber(Rows, At, Property.Type));
+}
+
+namespace {
+
 /// The number that the word \p Word is. A float that is too small or too large
 /// for its type becomes 0 or an infinity, which is what a double rounds to.
 template <typename Number> std::optional<Number> parse(std::string_view Word) {
@@ -59,14 +80,25 @@ public:
     return Success{};
   }
 
-  /// The file with all numbers of elements without lists turned round.
+  /// The file with all its numbers turned round.
   std::vector<std::byte> turned() const {
     std::vector<std::byte> Result(File.begin(), File.end());
+    std::size_t Next = Header.Size;
+    const auto Turn = [&](PlyType Type) {
+      const std::size_t First = Next;
+      Next += sizeOf(Type);
+      std::reverse(&Result[First], &Result[First] + sizeOf(Type));
+      return First;
+    };
     for (const PlyElement &E : Header.Elements)
-      for (std::size_t I = 0; I < E.Count && !E.HasLists; ++I)
+      for (std::size_t I = 0; I < E.Count; ++I)
         for (const PlyProperty &P : E.Properties) {
-          std::byte *First = &Result[E.Start + I * E.Stride + P.Offset];
-          std::reverse(First, First + sizeOf(P.Type));
+          auto Left = P.CountType
+                          ? static_cast<std::size_t>(loadNumber(
+                                Result, Turn(*P.CountType), *P.CountType))
+                          : 1;
+          while (Left-- != 0)
+            Turn(P.Type);
         }
     return Result;
   }
@@ -168,28 +200,32 @@ private:
   /// Takes the number or the list of a row.
   Expected<Success> take(const PlyElement &E, std::size_t I,
                          const PlyProperty &P) {
-    std::size_t Numbers = 1;
+    double Numbers = 1;
     if (P.CountType) {
       const std::string_view Word = next();
-      const auto Count = parse<uint32_t>(Word);
-      if (!Count)
+      const auto Count = append(Word, *P.CountType);
+      if (!Count || *Count < 0)
         return notANumber(Word, E, I, "a list's count");
       Numbers = *Count;
     }
-    for (std::size_t K = 0; K < Numbers; ++K) {
+    for (double K = 0; K < Numbers; ++K) {
       const std::string_view Word = next();
-      const bool Parsed = withNumber(P.Type, [&](auto Zero) {
-        const auto Value = parse<decltype(Zero)>(Word);
-        if (Value && !E.HasLists) {
-          const auto *First = reinterpret_cast<const std::byte *>(&*Value);
-          Result.insert(Result.end(), First, First + sizeof(*Value));
-        }
-        return Value.has_value();
-      });
-      if (!Parsed)
+      if (!append(Word, P.Type))
         return notANumber(Word, E, I, "property " + printable(P.Name));
     }
     return Success{};
+  }
+
+  /// Appends the number that the word \p Word is.
+  std::optional<double> append(std::string_view Word, PlyType Type) {
+    return withNumber(Type, [&](auto Zero) -> std::optional<double> {
+      const auto Value = parse<decltype(Zero)>(Word);
+      if (!Value)
+        return std::nullopt;
+      const auto *First = reinterpret_cast<const std::byte *>(&*Value);
+      Result.insert(Result.end(), First, First + sizeof(*Value));
+      return static_cast<double>(*Value);
+    });
   }
 
   Error notANumber(std::string_view Word, const PlyElement &E, std::size_t I,

@@ -7,8 +7,7 @@
 
 namespace vorion::splat {
 
-/// A PLY with access to its rows as little-endian binary. Rows of an element
-/// with lists are validated and skipped.
+/// A PLY with access to its rows as little-endian binary.
 class PlyFile {
 public:
   /// Rows of a little-endian binary file are not copied, so \p File must
@@ -28,16 +27,42 @@ public:
     return Rows.subspan(Element.Start + I * Element.Stride, Element.Stride);
   }
 
+  /// The bytes from row 0 of \p Element on.
+  Bytes from(const PlyElement &Element) const {
+    return Rows.subspan(Element.Start);
+  }
+
 private:
   PlyHeader Header;
   std::vector<std::byte> Own;
   Bytes Rows;
 };
 
-/// The number at \p At of a row. A double is rounded to the nearest float.
-inline float loadReal(Bytes Row, PlyReal At) {
-  return At.IsDouble ? static_cast<float>(load<double>(Row, At.Offset))
-                     : load<float>(Row, At.Offset);
+/// The number of type \p Type at \p At of a row.
+double loadNumber(Bytes Row, std::size_t At, PlyType Type);
+
+/// The rows of an element that may have lists, which have no fixed size: from
+/// the first one on, property by property.
+class PlyListRows {
+public:
+  /// \p File must outlive this.
+  PlyListRows(const PlyFile &File, const PlyElement &Element)
+      : Rows(File.from(Element)) {}
+
+  /// Passes \p Property, which is the next one of the row or, after the last
+  /// one, the first of the next row; appends its numbers to \p To if that is
+  /// not null.
+  void next(const PlyProperty &Property, std::vector<double> *To);
+
+private:
+  Bytes Rows;
+  std::size_t At = 0;
+};
+
+/// The number at \p At of a row.
+inline double loadReal(Bytes Row, PlyReal At) {
+  return At.IsDouble ? load<double>(Row, At.Offset)
+                     : double{load<float>(Row, At.Offset)};
 }
 
 /// Reads a PLY. Error: \p File does not contain exactly the rows that its

@@ -21,6 +21,11 @@
 #pragma vorion choice effect USE_ALPHA_CLAMP
 // Gaussians of several tiles are marked (effects/IntersectTags.cpp).
 #pragma vorion choice effect USE_INTERSECT_TAGS
+// Pixels have limits, where a mesh hides what is behind (effects/Mesh.cpp).
+#pragma vorion choice effect USE_MESH
+// Surfaces lie between Gaussians, so lists are drawn range after range
+// (effects/Mesh.cpp).
+#pragma vorion choice effect USE_LAYERS
 
 #include "layout.h"
 #include "tile.h"
@@ -86,6 +91,13 @@ typedef struct {
 #ifdef KEEP_LAST
   uint last; // entries of the list up to the last one blended
 #endif
+#if USE_MESH
+  uint limit; // number of the first entry that it does not take
+#endif
+#if USE_LAYERS
+  uint from; // number of the first entry that it takes
+  bool saturated;
+#endif
 } pixel_state;
 
 // Blends the first `entries` of the batch, which is `before` entries behind the
@@ -95,8 +107,15 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
                                float cutoff, uint effects, pixel_state p) {
   for (uint j = 0; j < entries; ++j) {
     __local const splat_gaussian *g = &batch[j];
+#if USE_MESH
+    p.done |= before + j >= p.limit;
+#endif
     const float dx = g->mean[0] - px;
     const float dy = g->mean[1] - py;
+#if USE_LAYERS
+    if (before + j < p.from)
+      continue;
+#endif
     if (!p.done & IN_BOX(g, dx, dy)) {
       const float power = power_at(g, dx, dy);
       // False for NaN.
@@ -114,6 +133,9 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
         p.blue += g->color[2] * weight;
         p.transmittance = blended ? next : p.transmittance;
         p.done = full;
+#if USE_LAYERS
+        p.saturated |= full;
+#endif
 #ifdef KEEP_LAST
         p.last = blended ? before + j + 1 : p.last;
 #endif
@@ -126,8 +148,14 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void
 blend(__global const splat_gaussian *records, __global const uint *list,
       __global const uint2 *ranges, __global float4 *pixels,
-      __global uint *last, uint width, uint height, float cutoff,
-      uint effects) {
+      __global uint *last,
+#if USE_MESH
+      __global const uint *limits,
+#endif
+#if USE_LAYERS
+      __global const uint *tile_layers, uint layer,
+#endif
+      uint width, uint height, float cutoff, uint effects) {
   __local splat_gaussian batch[BATCH];
   __local uint live;
 
@@ -137,6 +165,14 @@ blend(__global const splat_gaussian *records, __global const uint *list,
   const uint2 range = ranges[get_group_id(1) * get_num_groups(0) +
                              get_group_id(0)];
 
+#if USE_LAYERS
+  // The most layers that a pixel of the tile has.
+  const uint most =
+      tile_layers[get_group_id(1) * get_num_groups(0) + get_group_id(0)];
+  if (layer > most)
+    return;
+  limits += layer * width * height; // a plane of them for each range
+#endif
   const tile_place tile = place_of_tile(records, x0, y0);
 
   pixel_state own[OWN];
@@ -145,6 +181,22 @@ blend(__global const splat_gaussian *records, __global const uint *list,
     const bool inside = place < TILE_PIXELS && x0 + PLACE_X(place) < width &&
                         y0 + PLACE_Y(place) < height;
     own[k] = (pixel_state){0.0f, 0.0f, 0.0f, 1.0f, !inside};
+#if USE_MESH
+    if (inside)
+      own[k].limit = limits[(y0 + PLACE_Y(place)) * width + x0 + PLACE_X(place)];
+#endif
+#if USE_LAYERS
+    if (inside && layer != 0) {
+      const uint at = (y0 + PLACE_Y(place)) * width + x0 + PLACE_X(place);
+      const float4 was = pixels[at];
+      own[k].red = was.x;
+      own[k].green = was.y;
+      own[k].blue = was.z;
+      own[k].transmittance = fabs(was.w);
+      own[k].saturated = own[k].done = signbit(was.w);
+      own[k].from = (limits - width * height)[at];
+    }
+#endif
   }
   bool group_live = true;
   for (uint base = range.x; base < range.y && group_live; base += BATCH) {
@@ -177,8 +229,14 @@ blend(__global const splat_gaussian *records, __global const uint *list,
     const uint x = x0 + PLACE_X(place);
     const uint y = y0 + PLACE_Y(place);
     if (place < TILE_PIXELS && x < width && y < height) {
-      pixels[y * width + x] = (float4)(own[k].red, own[k].green, own[k].blue,
-                                       own[k].transmittance);
+      float transmittance = own[k].transmittance;
+#if USE_LAYERS
+      // The next range has to know.
+      if (own[k].saturated && layer < most)
+        transmittance = -transmittance;
+#endif
+      pixels[y * width + x] =
+          (float4)(own[k].red, own[k].green, own[k].blue, transmittance);
 #ifdef KEEP_LAST
       last[y * width + x] = own[k].last;
 #endif

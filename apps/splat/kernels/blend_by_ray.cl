@@ -10,6 +10,10 @@
 
 #include "blend.cl"
 
+#if USE_MESH
+#include <vorion.h>
+#endif
+
 // The nearest Gaussian comes first. Empty places have alpha 0.
 typedef struct {
   float depth[RAY_WINDOW], alpha[RAY_WINDOW];
@@ -55,6 +59,9 @@ static pixel_state blend_entry(__global const splat_gaussian *records,
   const float next = p.transmittance * (1.0f - alpha);
   // An empty place: the list has nothing more.
   p.done = (alpha == 0.0f) | SATURATED(next);
+#if USE_LAYERS
+  p.saturated |= p.done & (alpha != 0.0f);
+#endif
   if (!p.done) {
     __global const splat_gaussian *g = &records[GAUSSIAN(list[entry])];
     const float weight = alpha * p.transmittance;
@@ -66,11 +73,25 @@ static pixel_state blend_entry(__global const splat_gaussian *records,
   return p;
 }
 
+#if USE_MESH
+// Where the rays of a pinhole meet a mesh: depths are those along them, too.
+static float surface_depth(uint2 seen) {
+  return seen.y == VR_NO_PRIMITIVE ? INFINITY : 1.0f / as_float(seen.x);
+}
+#endif
+
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void
 blend_by_ray(__constant const splat_view *view,
              __global const splat_gaussian *records,
              __global const splat_ray_frame *frames, __global const uint *list,
              __global const uint2 *ranges, __global float4 *pixels,
+#if USE_MESH
+             __global const uint2 *visible,
+#endif
+#if USE_LAYERS
+             __global const uint2 *layers, __global const uint *layer_counts,
+             __global const uint *tile_layers, uint layer,
+#endif
              float cutoff, uint effects) {
   __local splat_gaussian batch[BATCH];
   __local splat_ray_frame frame[BATCH];
@@ -81,6 +102,12 @@ blend_by_ray(__constant const splat_view *view,
   const uint y0 = get_group_id(1) * TILE_SIZE;
   const uint2 range = ranges[get_group_id(1) * get_num_groups(0) +
                              get_group_id(0)];
+#if USE_LAYERS
+  const uint most =
+      tile_layers[get_group_id(1) * get_num_groups(0) + get_group_id(0)];
+  if (layer > most)
+    return;
+#endif
   const tile_place tile = place_of_tile(records, x0, y0);
   // A work-item's pixels one after the other: its window is in registers.
   for (uint k = 0; k < OWN; ++k) {
@@ -94,6 +121,27 @@ blend_by_ray(__constant const splat_view *view,
     const float px = (float)(tile.x + PLACE_X(place)) + 0.5f;
     const float py = (float)(tile.y + PLACE_Y(place)) + 0.5f;
     pixel_state p = {0.0f, 0.0f, 0.0f, 1.0f, !inside};
+#if USE_MESH
+    const uint at = inside ? y * view->size[0] + x : 0;
+    float nearest = -INFINITY, farthest = surface_depth(visible[at]);
+#endif
+#if USE_LAYERS
+    const uint pixel_count = view->size[0] * view->size[1];
+    const uint own = layer_counts[at];
+    if (layer < own)
+      farthest = surface_depth(layers[layer * pixel_count + at]);
+    if (inside && layer != 0) {
+      const float4 was = pixels[at];
+      p.red = was.x;
+      p.green = was.y;
+      p.blue = was.z;
+      p.transmittance = fabs(was.w);
+      p.saturated = signbit(was.w);
+      p.done = p.saturated | (layer > own);
+      if (layer <= own)
+        nearest = surface_depth(layers[(layer - 1) * pixel_count + at]);
+    }
+#endif
     float last_depth = -INFINITY;
     uint last_entry = 0;
     for (bool group_live = true; group_live;) {
@@ -121,9 +169,11 @@ blend_by_ray(__constant const splat_view *view,
             // False for NaN.
             if ((power <= 0.0f) & WORTH_TAKING(power)) {
               const float depth = ray_depth(&frame[j], slope);
-              const bool behind =
-                  (depth > last_depth) |
-                  ((depth == last_depth) & (base + j > last_entry));
+              bool behind = (depth > last_depth) |
+                            ((depth == last_depth) & (base + j > last_entry));
+#if USE_MESH
+              behind &= (depth >= nearest) & (depth < farthest);
+#endif
               if (behind & (depth < window.depth[RAY_WINDOW - 1])) {
                 const float alpha = alpha_of(g, power, effects);
                 if (alpha >= ALPHA_CUTOFF / 255.0f)
@@ -152,8 +202,13 @@ blend_by_ray(__constant const splat_view *view,
       // Nobody may clear `live` before all have read it.
       barrier(CLK_LOCAL_MEM_FENCE);
     }
+    float transmittance = p.transmittance;
+#if USE_LAYERS
+    if (p.saturated && layer < most)
+      transmittance = -transmittance;
+#endif
     if (inside)
       pixels[y * view->size[0] + x] =
-          (float4)(p.red, p.green, p.blue, p.transmittance);
+          (float4)(p.red, p.green, p.blue, transmittance);
   }
 }

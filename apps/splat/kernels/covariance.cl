@@ -99,6 +99,11 @@ typedef struct {
   float value, slope, curve;
 } lens_radial;
 
+// `value` at one q, and what it has beyond that at another.
+typedef struct {
+  float value, change;
+} lens_change;
+
 // Covariance on the picture from the rows b and c of B, the Jacobian times the
 // Gaussian's axes. The determinant of B B^T + h I is taken as the sum of B's
 // squared minors and h tr + h^2 (Cauchy-Binet): the difference xx yy - xy^2

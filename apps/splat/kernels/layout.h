@@ -135,6 +135,38 @@ enum {
 /// VR_INTERSECT of docs/isa.md, which rasterize.cl checks.
 #define SPANS_TILES 0x80000000U // NOLINT: enumerators of C are signed
 
+/// What is beyond the border of a texture, in the order of mesh/Texture.h.
+enum { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP };
+
+/// Bits of splat_material.filters: linear rather than nearest where texels are
+/// larger than pixels, and where they are smaller; smaller levels are taken, of
+/// which the nearest two are blended.
+enum {
+  FILTER_LARGER = 1,
+  FILTER_SMALLER = 2,
+  FILTER_LEVELS = 4,
+  FILTER_BETWEEN = 8
+};
+
+enum { TEXTURE_LEVELS = 16 };
+
+/// Modes of materials, in the order of mesh/Mesh.h.
+enum { MATERIAL_OPAQUE, MATERIAL_MASK, MATERIAL_BLEND };
+
+/// Transparent surfaces of a pixel.
+enum { MOST_LAYERS = 8 };
+
+/// How the triangles of a material look (mesh/Mesh.h).
+typedef struct {
+  uint levels;  ///< of its texture; 0: it has none
+  uint size[2]; ///< of the first level, texels
+  uint wrap[2]; ///< WRAP_*, across and down
+  uint filters; ///< FILTER_*
+  uint mode;    ///< MATERIAL_*
+  float cutoff; ///< of MATERIAL_MASK, the least alpha that is drawn
+  uint first[TEXTURE_LEVELS]; ///< texel of each level
+} splat_material;
+
 /// The bits of splat_blend_options.datapath: fields of vr_options, which
 /// rasterize.cl checks.
 enum {
@@ -145,8 +177,9 @@ enum {
   DATAPATH_ALPHA_CUTOFF = 8 ///< first bit of log2(255 times the cut-off)
 };
 
-/// Bytes of a vx_tail (docs/isa.md), which rasterize.cl checks.
-enum { TAIL_BYTES = 560 };
+/// Bytes of a vx_tail, and of a vx_tail_range behind it where pixels have
+/// ranges (docs/isa.md), which rasterize.cl checks.
+enum { TAIL_BYTES = 560, TAIL_RANGE_BYTES = 16 };
 
 /// Why no tile sees a Gaussian, in the order in which it is found out.
 enum {

@@ -24,6 +24,8 @@
 #pragma vorion choice effect USE_OPENCV
 // The lens divides (lens/Division.cpp).
 #pragma vorion choice effect USE_DIVISION
+// The lens divides by a root plus the depth (lens/Eucm.cpp).
+#pragma vorion choice effect USE_EUCM
 // The lens is a fisheye (lens/Fisheye.cpp).
 #pragma vorion choice effect USE_FISHEYE
 // Rays are parallel (lens/Orthographic.cpp).
@@ -39,6 +41,8 @@
 #include "lens_opencv.cl"
 #elif USE_DIVISION
 #include "lens_division.cl"
+#elif USE_EUCM
+#include "lens_eucm.cl"
 #elif USE_FISHEYE
 #include "lens_fisheye.cl"
 #elif USE_ORTHOGRAPHIC

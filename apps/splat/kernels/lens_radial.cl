@@ -1,9 +1,22 @@
-// What pinholes with a distortion share that depends on the radius alone. Their
-// model's file has lens_radial_at before it includes this one.
+// What pinholes with a distortion share that depends on the radius alone. With q
+// = (x/z)^2 + (y/z)^2, their model's file has, before it includes this one,
+//
+//     lens_radial_at      the factor of x/z and y/z at q, and its derivatives
+//     lens_radial_value   the factor alone
+//     lens_radial_change  the factor at q, and how it differs from that at q0,
+//                         from dq = q - q0 without a cancellation
 #pragma once
 
 #include "covariance.cl"
+#include "crop.cl"
 #include "layout.h"
+
+static bool lens_at(VIEW_SPACE const splat_lens *lens, float3 p, float2 *at) {
+  const float a = p.x / p.z, b = p.y / p.z;
+  const float q = a * a + b * b;
+  *at = lens_radial_value(lens, q) * (float2)(a, b);
+  return p.z > 0.0f && q < lens->limit;
+}
 
 // The derivatives of the place by a and b, in the rows' first two members.
 static lens_rows lens_slopes(VIEW_SPACE const splat_lens *lens, float a, float b,
@@ -40,4 +53,21 @@ static float3 lens_curvature(VIEW_SPACE const splat_view *view,
   const float by_a = a == ratio.x ? d.x / p.z : 0.0f;
   const float by_b = b == ratio.y ? d.y / p.z : 0.0f;
   return (float3)(by_a, by_b, d.z / p.z - by_a * ratio.x - by_b * ratio.y);
+}
+
+// `beside` is x and y less those of the ray at depth z. `ray` has the ray's x/z
+// and y/z, a0 and b0.
+static float2 crop_mean(VIEW_SPACE const splat_view *view,
+                        VIEW_SPACE const splat_lens *lens,
+                        CROP_SPACE const splat_crop *crop, float2 beside,
+                        float3 p) {
+  const float a0 = crop->ray[0], b0 = crop->ray[1];
+  const float da = beside.x / p.z, db = beside.y / p.z;
+  const float a = a0 + da, b = b0 + db;
+  const float dq = da * (a0 + a) + db * (b0 + b);
+  const lens_change c =
+      lens_radial_change(lens, a0 * a0 + b0 * b0, a * a + b * b, dq);
+  return (float2)(
+      view->focal[0] * (da * c.value + a0 * c.change) + crop->place[0],
+      view->focal[1] * (db * c.value + b0 * c.change) + crop->place[1]);
 }

@@ -10,6 +10,11 @@
 #pragma vorion choice effect USE_ZTILES
 // Pixel units end what rasterizers hand over (effects/PixelUnit.cpp).
 #pragma vorion choice effect USE_PIXEL_UNIT
+// Pixels have limits, where a mesh hides what is behind (effects/Mesh.cpp).
+#pragma vorion choice effect USE_MESH
+// Surfaces lie between Gaussians, so lists are drawn range after range
+// (effects/Mesh.cpp).
+#pragma vorion choice effect USE_LAYERS
 
 #include "layout.h"
 #include "tile.h"
@@ -32,8 +37,16 @@ _Static_assert(DATAPATH_EXP == VR_OPTIONS_EXP_SHIFT &&
                    DATAPATH_BLEND == VR_OPTIONS_BLEND_SHIFT &&
                    DATAPATH_ALPHA_CUTOFF == VR_OPTIONS_ALPHA_CUTOFF_SHIFT,
                "kernels/layout.h and docs/isa.md disagree");
-_Static_assert(sizeof(vx_tail) == TAIL_BYTES,
+_Static_assert(sizeof(vx_tail) == TAIL_BYTES &&
+                   sizeof(vx_tail_range) == TAIL_RANGE_BYTES,
                "kernels/layout.h and docs/isa.md disagree");
+
+// From a hand-over record to the next.
+#if USE_MESH
+#define TAIL_STRIDE (TAIL_BYTES + TAIL_RANGE_BYTES)
+#else
+#define TAIL_STRIDE TAIL_BYTES
+#endif
 
 // What the commands of a picture share.
 typedef struct {
@@ -41,6 +54,14 @@ typedef struct {
   __global const splat_gaussian *records;
   uint list, output, last, tails;
   splat_blend_options o;
+#if USE_MESH
+  uint limits; // of the pixels' ranges
+#endif
+#if USE_LAYERS
+  uint froms;                          // their beginnings
+  __global const uint *tile_layers;    // the most that a pixel of a tile has
+  uint layer;                          // number of the range
+#endif
 } picture_commands;
 
 // Starts depth part `part` of tile `tile`, whose list is `range`; `job` numbers
@@ -63,7 +84,7 @@ static void start_part(const picture_commands *c, uint tile, uint part,
   if (USE_PIXEL_UNIT) {
     vr_tail_count_set(max(c->o.tail_count,
                           count * c->o.tail_last[0] / c->o.tail_last[1]));
-    vr_tail_record_set(c->tails + job * (uint)sizeof(vx_tail));
+    vr_tail_record_set(c->tails + job * (uint)TAIL_STRIDE);
   }
   const tile_place at = place_of_tile(c->records, x, y);
 #if USE_WINDOWS
@@ -75,11 +96,26 @@ static void start_part(const picture_commands *c, uint tile, uint part,
 #ifdef KEEP_LAST
   vx_raster_keep_last(c->last + first_pixel * (uint)sizeof(uint));
 #endif
+#if USE_MESH
+  vx_raster_limit(c->limits + (y * c->o.size[0] + x) * (uint)sizeof(uint),
+                  begin);
+#endif
+#if USE_LAYERS
+  if (c->layer != 0)
+    vx_raster_from(c->froms + first_pixel * (uint)sizeof(uint));
+  vx_raster_sequence(c->layer != 0, c->layer < c->tile_layers[tile]);
+#endif
   vx_raster_render(c->list + (range.x + begin) * (uint)sizeof(uint), count,
                    at.x, at.y, min((uint)TILE_SIZE, c->o.size[0] - x),
                    min((uint)TILE_HEIGHT, c->o.size[1] - y),
                    c->output + first_pixel * (uint)sizeof(float4));
 }
+
+#if USE_LAYERS
+static uint pixels_of(const splat_blend_options *o) {
+  return o->size[0] * o->size[1];
+}
+#endif
 
 // Jobs are (tile, part), tiles by `tile_order`, the parts of a tile together.
 // `pixels` has `parts` pictures.
@@ -87,12 +123,30 @@ static void start_jobs(__global const splat_gaussian *records,
                        __global const uint *list, __global const uint2 *ranges,
                        __global const uint *tile_order,
                        __global float4 *pixels, __global uint *last,
-                       __global uint *tails, splat_blend_options options) {
+                       __global uint *tails,
+#if USE_MESH
+                       __global const uint *limits,
+#endif
+#if USE_LAYERS
+                       __global const uint *tile_layers, uint layer,
+#endif
+                       splat_blend_options options) {
   const uint effects = options.effects;
   const uint parts = USE_ZTILES ? options.parts : 1;
   const uint jobs = options.tiles * parts;
   const picture_commands c = {records,    (uint)list,  (uint)pixels,
-                              (uint)last, (uint)tails, options};
+                              (uint)last, (uint)tails, options,
+#if USE_LAYERS
+                              // A plane of them for each range.
+                              (uint)(limits + layer * pixels_of(&options)),
+                              (uint)(limits + (layer - 1) *
+                                                  pixels_of(&options)),
+                              tile_layers,
+                              layer
+#elif USE_MESH
+                              (uint)limits
+#endif
+  };
   vx_raster_setup((uint)records, options.cutoff, options.datapath,
                   options.size[0] * (uint)sizeof(float4));
   // Without the pixel unit: no reason to hand over, whatever ran before.
@@ -105,6 +159,10 @@ static void start_jobs(__global const splat_gaussian *records,
 #endif
     const uint job = d.job;
     const uint tile = tile_order[job / parts];
+#if USE_LAYERS
+    if (layer > tile_layers[tile])
+      continue;
+#endif
     start_part(&c, tile, job % parts, ranges[tile], job);
   }
 }
@@ -119,8 +177,21 @@ __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
 rasterize(__global const splat_gaussian *records, __global const uint *list,
           __global const uint2 *ranges, __global const uint *tile_order,
           __global float4 *pixels, __global uint *last, __global uint *tails,
+#if USE_MESH
+          __global const uint *limits,
+#endif
+#if USE_LAYERS
+          __global const uint *tile_layers, uint layer,
+#endif
           __global uint *statuses, splat_blend_options options) {
-  start_jobs(records, list, ranges, tile_order, pixels, last, tails, options);
+  start_jobs(records, list, ranges, tile_order, pixels, last, tails,
+#if USE_MESH
+             limits,
+#endif
+#if USE_LAYERS
+             tile_layers, layer,
+#endif
+             options);
   wait_for_jobs(statuses);
 }
 
@@ -131,8 +202,21 @@ rasterize_start(__global const splat_gaussian *records,
                 __global const uint *list, __global const uint2 *ranges,
                 __global const uint *tile_order, __global float4 *pixels,
                 __global uint *last, __global uint *tails,
+#if USE_MESH
+                __global const uint *limits,
+#endif
+#if USE_LAYERS
+                __global const uint *tile_layers, uint layer,
+#endif
                 splat_blend_options options) {
-  start_jobs(records, list, ranges, tile_order, pixels, last, tails, options);
+  start_jobs(records, list, ranges, tile_order, pixels, last, tails,
+#if USE_MESH
+             limits,
+#endif
+#if USE_LAYERS
+             tile_layers, layer,
+#endif
+             options);
 }
 
 __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void

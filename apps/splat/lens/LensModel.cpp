@@ -8,6 +8,8 @@
 
 namespace vorion::splat {
 
+std::string_view anyCoefficients(const LensCoefficients & /*K*/) { return {}; }
+
 double noLimit(const LensCoefficients & /*K*/) {
   return std::numeric_limits<double>::infinity();
 }

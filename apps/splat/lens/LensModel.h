@@ -63,6 +63,7 @@ struct LensModel;
 
 /// \name Defaults of records
 /// @{
+std::string_view anyCoefficients(const LensCoefficients &K);
 double noLimit(const LensCoefficients &K);
 double sameRadius(const LensCoefficients &K, double Radius);
 LensPlace distortedRadially(const LensModel &Model, const LensCoefficients &K,
@@ -130,6 +131,10 @@ struct LensModel {
 
   /// \name Equations
   /// @{
+  /// What messages say is expected of the coefficients, if \p K is outside the
+  /// range in which the equations hold; otherwise empty.
+  std::string_view (*ExpectedCoefficients)(const LensCoefficients &K) =
+      anyCoefficients;
   /// The limit up to which the model is one-to-one: a radius before distortion,
   /// or an angle from the axis.
   double (*Limit)(const LensCoefficients &K) = noLimit;

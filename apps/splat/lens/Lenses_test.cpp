@@ -39,6 +39,8 @@ TEST(Lenses, EveryNameIsOfOneModel) {
 /// Some of both signs that keep a model one to one around the middle.
 LensCoefficients someOf(const LensModel &M) {
   LensCoefficients K{};
+  if (&M == &lenses::Eucm)
+    return {0.6, 1.2};
   for (std::size_t I = 0; I < M.Keys.size(); ++I)
     K[I] = (I % 2 == 0 ? -0.05 : 0.02) / static_cast<double>(1 + I);
   return K;

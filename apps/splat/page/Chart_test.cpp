@@ -122,7 +122,7 @@ TEST(Chart, AnAnalysisHasThree) {
     L.Histogram = {1, 3};
     L.Occluded.fill(0.5);
   }
-  const auto Charts = chartsOf(A, "front");
+  const auto Charts = chartsOf(A);
   ASSERT_EQ(Charts.size(), 3U);
   EXPECT_EQ(count(svgOf(Charts.at("invocations")), "<rect"), 1U + 16 + 4);
   EXPECT_EQ(count(svgOf(Charts.at("occlusion")), "<polyline"), 2U);

@@ -41,10 +41,11 @@ std::string base64(const std::string &Bytes) {
 } // namespace
 
 std::string filledPage(std::string_view Template,
-                       const nlohmann::ordered_json &Data) {
+                       const nlohmann::ordered_json &Data,
+                       std::string_view Library) {
   std::string Page(Template);
   // The data last: they may say anything.
-  fillIn(Page, "@LIBRARY@", chartLibrary());
+  fillIn(Page, "@LIBRARY@", Library);
   fillIn(Page, "@DATA@", forScript(jsonText(Data)));
   return Page;
 }

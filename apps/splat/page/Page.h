@@ -11,9 +11,10 @@ namespace vorion::splat {
 std::string_view chartLibrary();
 
 /// \p Template of EmbedPages.cmake, with @DATA@ and @LIBRARY@ replaced by \p
-/// Data and the library.
+/// Data and \p Library.
 std::string filledPage(std::string_view Template,
-                       const nlohmann::ordered_json &Data);
+                       const nlohmann::ordered_json &Data,
+                       std::string_view Library = chartLibrary());
 
 /// A data URI of the \p Bytes of a PNG.
 std::string pngUri(const std::string &Bytes);

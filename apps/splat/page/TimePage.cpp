@@ -71,7 +71,7 @@ Expected<std::string> timePageOf(const std::vector<TimeRun> &Runs,
                                          Key)};
       Report[Key] = R.Report[Key];
     }
-    for (const char *Key : {"heat_map", "energy"})
+    for (const char *Key : {"bounds", "what_if", "heat_map", "energy"})
       if (R.Report.contains(Key))
         Report[Key] = R.Report[Key];
     All.push_back({{"name", R.Name},

@@ -15,47 +15,76 @@ const stageNames = [...new Set(runs.flatMap(r => frameStages(r.report).map(s => 
 const stageOf = (run, name) => frameStages(run.report).find(s => s.name === name);
 const milliseconds = time => time.cycles / (1e3 * time.clock_mhz);
 const megabytes = time => (time.dram.read_bursts + time.dram.write_bursts) * time.host.dram_burst_bytes / 1e6;
+const linkMegabytes = time =>
+    (time.link.bytes_to_l2 + time.link.bytes_from_l2) / 1e6;
+const hasLink = runs.some(run => linkMegabytes(run.report.time.sum) > 0);
 const letter = n => two ? 'AB'[n] : '';
 
 function sizeBox(id, rows) {
   byId(id).style.height = `${rows}px`;
 }
 
-// The name of a bar inside it, where it fits.
-const namesInside = {
-  id: 'namesInside',
-  afterDatasetsDraw(chart) {
-    const { ctx } = chart;
-    ctx.save();
-    ctx.font = `12px ${Chart.defaults.font.family}`;
-    ctx.textAlign = 'center';
-    ctx.textBaseline = 'middle';
-    chart.data.datasets.forEach(({ label, backgroundColor }, n) => {
-      ctx.fillStyle = inkOn(backgroundColor);
-      for (const bar of chart.getDatasetMeta(n).data)
-        if (bar.width > ctx.measureText(label).width + 8) ctx.fillText(label, bar.x - bar.width / 2, bar.y);
-    });
-    ctx.restore();
-  },
-};
+const millisecondsOf = (report, name) => { const s = stageOf({ report }, name); return s ? milliseconds(s.time) : undefined; };
 
+// What helps a stage: what was measured, and what was not.
+function helpOf({ report }, { ms: before, helps }) {
+  const parts = helps.map(({ set, ms }) => (ms === null ? [`${set}: not measured`] : [`${set}: ${number(before, 3)} to ${number(ms, 3)} ms, `, change(before, ms), ', measured']));
+  return element('span', {}, ...(parts.length ? parts.flatMap((part, n) => (n ? ['; ', ...part] : part)) : [report.what_if ? 'no setting that was measured' : 'nothing known']));
+}
+
+function drawBounds() {
+  const rows = runs.flatMap((run, n) => (run.report.bounds ?? []).map(bound => ({ run, n, bound })));
+  byId('bounds-section').hidden = !rows.length;
+  byId('bounds').tHead.replaceChildren(rowOf(['stage', 'ms', 'bound by', 'what helps', 'cycles, %', 'unit, % of peak', 'DRAM, % of peak'], 'th'));
+  byId('bounds').tBodies[0].replaceChildren(...rows.map(({ run, n, bound }) => rowOf([`${bound.stage} ${letter(n)}`.trim(),
+    number(bound.ms, 3), `${bound.unit}: ${bound.reason}`, helpOf(run, bound), number(100 * bound.share),
+    number(100 * bound.work_share, 1), number(100 * bound.memory_share, 1)])));
+  byId('bounds-note').textContent = 'The reason of most cycles in which the unit was not idle, of cores or, if these mostly wait for rasterizers, of rasterizers. ' +
+    'Times are modelled. splat render --what-if SETTING measures a setting.';
+}
+
+// The frame with other settings beside it.
+function drawWhatIfs() {
+  const [{ report }] = runs, others = report.what_if ?? [];
+  byId('what-if-section').hidden = two || !others.length;
+  if (two || !others.length) return;
+  const all = [{ set: 'as it is', time: report.time, same_picture: true }, ...others];
+  sizeBox('what-if-box', 110 + stageNames.length * (10 + 14 * all.length));
+  drawChart('what-if', {
+    type: 'bar',
+    data: { labels: stageNames, datasets: all.map(({ set, time }, n) => ({ label: set, data: stageNames.map(name => millisecondsOf({ time }, name)), backgroundColor: seriesColour(n) })) },
+    options: {
+      indexAxis: 'y', scales: { x: axis('time, ms'), y: { grid: { display: false }, ticks: { autoSkip: false } } },
+      plugins: { legend: { position: 'bottom' } },
+    },
+  });
+  byId('what-ifs').tHead.replaceChildren(rowOf(['setting', 'frame, ms', 'change', 'frames a second', 'picture'], 'th'));
+  byId('what-ifs').tBodies[0].replaceChildren(...all.map(({ set, time, same_picture: same }) => rowOf([set, number(time.frame_ms, 3),
+    change(report.time.frame_ms, time.frame_ms), number(time.fps, 1), same ? 'the same' : 'another'])));
+}
+
+// A stage's bar is as long as it took, and begins where the one before ended.
 function drawTimeline() {
   const parts = [...stageNames.map(name => ({ name, of: r => { const s = stageOf(r, name); return s ? milliseconds(s.time) : 0; } })),
-    { name: 'launches', of: r => r.report.time.launch_ms }, { name: 'copies', of: r => r.report.time.copy_ms }];
-  const datasets = parts.map(({ name, of }, n) => ({
-    label: name, data: runs.map(of), backgroundColor: seriesColour(n), borderColor: colour('panel'), borderWidth: { right: 1 }, borderSkipped: false,
-  }));
-  sizeBox('timeline-box', 190 + 60 * (runs.length - 1) + (byId('timeline-box').clientWidth < 600 ? 110 : 0));
+    { name: 'launches', of: r => r.report.time.launch_ms }, { name: 'copies', of: r => r.report.time.copy_ms }]
+    .filter(({ of }) => runs.some(run => of(run) > 0));
+  const datasets = runs.map((run, n) => {
+    let end = 0;
+    return {
+      label: two ? `${letter(n)}: ${run.name}` : 'time', backgroundColor: seriesColour(n), barPercentage: 0.9, minBarLength: 1.5,
+      data: parts.map(({ of }) => [end, end += of(run)]),
+    };
+  });
+  sizeBox('timeline-box', 80 + (two ? 30 : 0) + parts.length * (two ? 34 : 24));
   drawChart('timeline', {
     type: 'bar',
-    data: { labels: runs.map((_, n) => letter(n)), datasets },
-    plugins: [namesInside],
+    data: { labels: parts.map(p => p.name), datasets },
     options: {
       indexAxis: 'y',
-      scales: { x: { stacked: true, ...axis('time from the beginning of the frame, ms') }, y: { stacked: true, grid: { display: false } } },
+      scales: { x: { min: 0, ...axis('time in the frame, ms') }, y: { grid: { display: false }, ticks: { autoSkip: false } } },
       plugins: {
-        legend: { position: 'bottom', labels: { boxWidth: 14 } },
-        tooltip: { callbacks: { label: item => `${item.dataset.label}: ${number(item.raw, 3)} ms, ${number(100 * item.raw / runs[item.dataIndex].report.time.frame_ms, 1)} % of the frame` } },
+        legend: { display: two, position: 'bottom' },
+        tooltip: { callbacks: { label: ({ datasetIndex: n, raw: [from, to] }) => `${number(to - from, 3)} ms, ${number(100 * (to - from) / runs[n].report.time.frame_ms, 1)} % of the frame` } },
       },
     },
   });
@@ -69,7 +98,8 @@ function drawReasons() {
     return state.scale === 'percent' ? 100 * cycles / time.cycles : cycles / 1e3;
   };
   const datasets = Object.entries(groups).map(([label, group]) =>
-    ({ label, data: rows.map(r => share(r.time, group.reasons)), backgroundColor: group.colour, barPercentage: 0.95 }));
+    ({ label, data: rows.map(r => share(r.time, group.reasons)), backgroundColor: group.colour, barPercentage: 0.95 }))
+    .filter(({ data: values }) => values.some(v => v > 0));
   const narrow = byId('reasons-box').clientWidth < 600;
   sizeBox('reasons-box', 110 + (narrow ? 130 : 20) + rows.length * 26);
   drawChart('reasons', {
@@ -82,7 +112,7 @@ function drawReasons() {
         y: { stacked: true, grid: { display: false }, ticks: { autoSkip: false } },
       },
       plugins: {
-        legend: { position: 'bottom', labels: { boxWidth: 14 } },
+        legend: { position: 'bottom' },
         tooltip: { callbacks: { label: item => `${item.dataset.label}: ${number(item.raw, 1)} ${SCALES[state.scale]}` } },
       },
     },
@@ -97,49 +127,81 @@ function heatColour(share) {
   return `rgb(${RAMP[step].map((from, k) => Math.round(from + (at - step) * (RAMP[step + 1][k] - from))).join(' ')})`;
 }
 
-function drawMaps() {
-  const mapped = runs.map((run, n) => ({ ...run, n })).filter(r => r.report.heat_map);
+const mapped = runs.map((run, n) => ({ ...run, n })).filter(r => r.report.heat_map);
+const tileTitle = ({ n, name }) => `${two ? `${letter(n)}: ${name}, ` : ''}${HEATS[state.heat]}, tile by tile`;
+
+// The pictures, and a canvas for each heat map.
+function addMaps() {
   byId('map-section').hidden = !mapped.length && !runs.some(r => r.picture);
-  const most = Math.max(...mapped.map(r => r.report.heat_map.scales[state.heat]));
-  byId('most').textContent = mapped.length ? `${number(most)} ${HEATS[state.heat]}` : '';
-  byId('ramp').style.background = `linear-gradient(to right, ${RAMP.map(c => `rgb(${c.join(' ')})`).join(', ')})`;
-  const figures = [];
   for (const run of runs)
-    if (run.picture) figures.push(element('figure', {}, element('img', { src: run.picture, alt: 'the picture' }), element('figcaption', {}, `view ${run.report.view}`)));
-  for (const { report, n, name } of mapped) {
-    const [width, height] = report.resolution;
-    const title = `${two ? `${letter(n)}: ${name}, ` : ''}${HEATS[state.heat]}, tile by tile`;
-    const canvas = element('canvas', { width, height, id: `map${n}`, role: 'img', 'aria-label': `${HEATS[state.heat]} of each tile` });
-    const caption = element('figcaption', {}, title);
-    const context = canvas.getContext('2d');
+    if (run.picture) byId('maps').append(element('figure', {}, element('img', { src: run.picture, alt: 'the picture' }), element('figcaption', {}, `view ${run.report.view}`)));
+  for (const run of mapped) {
+    const { heat_map: { tiles }, resolution: [width, height] } = run.report;
+    const canvas = element('canvas', { width, height, id: `map${run.n}`, role: 'img' }), caption = element('figcaption');
     const inside = (tile, x, y) => x >= tile.x && y >= tile.y && x < tile.x + tile.width && y < tile.y + tile.height;
-    context.fillStyle = '#404040';
-    context.fillRect(0, 0, width, height);
-    for (const tile of report.heat_map.tiles) {
-      context.fillStyle = heatColour(most ? tile[state.heat] / most : 0);
-      context.fillRect(tile.x, tile.y, tile.width, tile.height);
-    }
     canvas.addEventListener('pointermove', event => {
       const x = event.offsetX * width / canvas.clientWidth, y = event.offsetY * height / canvas.clientHeight;
-      const tile = report.heat_map.tiles.find(t => inside(t, x, y));
-      caption.textContent = tile ? `tile at ${tile.x}, ${tile.y}: ` + Object.entries(HEATS).map(([k, label]) => `${label} ${number(tile[k])}`).join('; ') : title;
+      const tile = tiles.find(t => inside(t, x, y));
+      caption.textContent = tile ? `tile at ${tile.x}, ${tile.y}: ` + Object.entries(HEATS).map(([k, label]) => `${label} ${number(tile[k])}`).join('; ') : tileTitle(run);
     });
-    figures.push(element('figure', {}, canvas, caption));
+    byId('maps').append(element('figure', { class: 'map' }, canvas, caption));
   }
-  byId('maps').replaceChildren(...figures);
 }
+
+function drawMaps() {
+  const { heat } = state;
+  const most = Math.max(...mapped.map(r => r.report.heat_map.scales[heat]));
+  byId('most').textContent = mapped.length ? `${number(most)} ${HEATS[heat]}` : '';
+  byId('ramp').style.background = `linear-gradient(to right, ${RAMP.map(c => `rgb(${c.join(' ')})`).join(', ')})`;
+  for (const run of mapped) {
+    const { heat_map: { tiles }, resolution: [width, height] } = run.report, canvas = byId(`map${run.n}`);
+    canvas.setAttribute('aria-label', tileTitle(run));
+    canvas.nextElementSibling.textContent = tileTitle(run);
+    drawCells(canvas.id, {
+      width, height, rows: [['x', 'y', HEATS[heat]], ...tiles.map(tile => [tile.x, tile.y, tile[heat]])],
+      paint: context => {
+        context.fillStyle = '#404040';
+        context.fillRect(0, 0, width, height);
+        for (const tile of tiles) {
+          context.fillStyle = heatColour(most ? tile[heat] / most : 0);
+          context.fillRect(tile.x, tile.y, tile.width, tile.height);
+        }
+      },
+    });
+  }
+}
+
+const busyShares =
+    time => ['to', 'from']
+                .map(way => number(
+                         100 * time.link[`busy_${way}_l2`] / time.cycles, 1))
+                .join(' / ');
+// The columns of the stages: heading, whether the machines have it, its text.
+const STAGE_FIGURES = [
+  [ 'cycles', true, time => number(time.cycles) ],
+  [ 'ms', true, time => number(milliseconds(time), 3) ],
+  [ 'DRAM, MB', true, time => number(megabytes(time), 2) ],
+  [ 'link, MB', hasLink, time => number(linkMegabytes(time), 2) ],
+  [ 'link busy to / from the L2, %', hasLink, busyShares ],
+].filter(([, isThere ]) => isThere);
 
 // [name, time of run 0, time of run 1] to a row.
 function stageRow(name, times) {
   const cells = [name];
   for (const time of times)
-    cells.push(...(time ? [number(time.cycles), number(milliseconds(time), 3), number(megabytes(time), 2)] : ['—', '—', '—']));
+    cells.push(
+        ...STAGE_FIGURES.map(([, , figure ]) => time ? figure(time) : '—'));
   if (two) cells.push(change(times[0]?.cycles, times[1]?.cycles));
   return rowOf(cells);
 }
 
 function drawStages() {
-  const head = ['stage', ...runs.flatMap((_, n) => ['cycles', 'ms', 'DRAM, MB'].map(label => `${label} ${letter(n)}`.trim())), ...(two ? ['cycles, A to B'] : [])];
+  const head = [
+    'stage',
+    ...runs.flatMap((_, n) => STAGE_FIGURES.map(
+                        ([ label ]) => `${label} ${letter(n)}`.trim())),
+    ...(two ? [ 'cycles, A to B' ] : [])
+  ];
   byId('stages').tHead.replaceChildren(rowOf(head, 'th'));
   const total = stageRow('kernels of the frame', runs.map(r => r.report.time.sum));
   total.className = 'total';
@@ -196,6 +258,8 @@ function drawFigures() {
 
 function draw() {
   drawFigures();
+  drawBounds();
+  drawWhatIfs();
   drawTimeline();
   drawReasons();
   drawMaps();
@@ -206,9 +270,11 @@ function draw() {
 
 function start() {
   const choose = (id, choices) => fill(byId(id), Object.entries(choices), value => { state[id] = value; draw(); });
-  choose('unit', Object.fromEntries(Object.entries(UNITS).map(([k, u]) => [k, u.label])));
+  // A machine may lack units of a kind.
+  choose('unit', Object.fromEntries(Object.entries(UNITS).filter(([k]) => runs.every(r => r.report.time.sum[k].length)).map(([k, u]) => [k, u.label])));
   choose('scale', SCALES);
   choose('heat', HEATS);
+  addMaps();
   draw();
 }
 
@@ -216,7 +282,7 @@ function tryOut() {
   tryControls(['unit', 'scale', 'heat']);
   const rows = byId('stages').tBodies[0].rows.length;
   if (rows !== stageNames.length + 1) throw new Error('not a row a stage');
-  const drawn = charts.timeline.data.datasets.reduce((sum, d) => sum + d.data[0], 0);
+  const drawn = charts.timeline.data.datasets[0].data.at(-1)[1];
   if (Math.abs(drawn / runs[0].report.time.frame_ms - 1) > 1e-6) throw new Error('the stages are not the frame');
   for (const { energy } of runs.map(r => r.report))
     if (energy && Math.abs(energy.units.reduce((sum, u) => sum + u.joules.value, 0) / energy.joules.value - 1) > 1e-6)

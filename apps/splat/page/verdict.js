@@ -4,13 +4,13 @@ function figureOf({ image, caption }) {
   return element('figure', {}, element('img', { src: image, alt: caption }), element('figcaption', {}, caption));
 }
 
-function tableOf({ columns, rows }) {
-  return element('div', { class: 'wide' }, element('table', {}, element('thead', {}, rowOf(columns, 'th')),
+function tableOf({ title, columns, rows }) {
+  return element('div', { class: 'wide' }, element('table', { id: slug(title) }, element('thead', {}, rowOf(columns, 'th')),
     element('tbody', {}, ...rows.map(row => rowOf(row)))));
 }
 
 function redraw() {
-  data.charts.forEach(({ title, x_label: x, y_label: y, places, bars, series }, n) => drawChart(`chart-${n}`, {
+  data.charts.forEach(({ title, x_label: x, y_label: y, places, bars, series }) => drawChart(slug(title), {
     type: bars ? 'bar' : 'line',
     data: { labels: places, datasets: series.map(({ name, values }, k) => ({ label: name, data: values, backgroundColor: seriesColour(k), borderColor: seriesColour(k) })) },
     options: {
@@ -24,8 +24,8 @@ openPage(() => {
   document.title = data.heading;
   document.querySelector('h1').textContent = data.heading;
   byId('verdict').textContent = data.verdict;
-  byId('charts').append(...data.charts.map(({ title }, n) => element('div', { class: 'chart', style: 'height: 24em; max-width: 60em' },
-    element('canvas', { id: `chart-${n}`, role: 'img', 'aria-label': `${title}; a table below has the numbers` }))));
+  byId('charts').append(...data.charts.map(({ title }) => element('div', { class: 'chart', style: 'height: 24em; max-width: 60em' },
+    element('canvas', { id: slug(title), role: 'img', 'aria-label': title }))));
   for (const { title, note, images } of data.pictures)
     byId('pictures').append(element('h2', {}, title), element('p', { class: 'note' }, note),
       element('div', { class: 'tiles' }, ...images.map(figureOf)));

@@ -7,6 +7,7 @@
 #include "splat/LaneUnits.h" // generated from intrinsics/Units.td
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,6 +62,8 @@ constexpr float nearLimit(Rules R) { return R == Rules::Inria ? 0.2F : 0.01F; }
 
 inline constexpr unsigned MaxZTiles = 16;
 
+struct Mesh;
+
 /// The options of one picture that reach the device.
 struct RenderOptions {
   Rules Convention = Rules::Inria;
@@ -92,6 +95,13 @@ struct RenderOptions {
   float Cutoff = 1e-4F;
   /// Culls blocks of Gaussians outside a pinhole's frustum.
   bool CullBlocks = false;
+  /// A mesh that is drawn with the Gaussians, or null.
+  std::shared_ptr<const Mesh> Surface;
+  /// The direction in which a light shines on the mesh, of length 1, in the
+  /// world's axes.
+  std::optional<std::array<float, 3>> Light;
+  /// Whether the mesh in each pixel is read back (RenderResult::MeshShown).
+  bool KeepVisible = false;
 
   /// \name The rasterizers' path
   /// @{
@@ -119,6 +129,12 @@ struct RenderOptions {
   /// (docs/rasterizer.md, "The backward mode"), last contributors kept.
   bool Training = false;
 
+  /// Whether a pixel takes more than four words of the rasterizer's buffer,
+  /// which then holds half as many (docs/primitives.md, "Words a pixel").
+  bool hasWidePixels() const {
+    return Training || (Surface && RasterTile == 64);
+  }
+
   float nearLimit() const {
     return Near.value_or(splat::nearLimit(Convention));
   }
@@ -127,10 +143,12 @@ struct RenderOptions {
 
   /// Width and height of a tile of the path, px.
   unsigned tileSize() const {
-    return Blending == Path::Simt ? SimtTile : Training ? 32 : RasterTile;
+    return Blending == Path::Simt ? SimtTile
+           : hasWidePixels()      ? 32
+                                  : RasterTile;
   }
   unsigned tileHeight() const {
-    return Blending == Path::Raster && Training ? 64 : tileSize();
+    return Blending == Path::Raster && hasWidePixels() ? 64 : tileSize();
   }
 };
 

@@ -33,6 +33,10 @@ py::array arrayOf(std::vector<float> Values, const Shape &Sizes) {
   return owningArray(std::move(Values), Sizes);
 }
 
+py::array arrayOf(std::vector<double> Values, const Shape &Sizes) {
+  return owningArray(std::move(Values), Sizes);
+}
+
 py::array arrayOf(std::vector<int32_t> Values, const Shape &Sizes) {
   return owningArray(std::move(Values), Sizes);
 }

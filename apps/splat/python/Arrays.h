@@ -21,6 +21,7 @@ pybind11::array viewOf(std::vector<float> &Values, const Shape &Sizes,
 
 /// An array that owns \p Values.
 pybind11::array arrayOf(std::vector<float> Values, const Shape &Sizes);
+pybind11::array arrayOf(std::vector<double> Values, const Shape &Sizes);
 pybind11::array arrayOf(std::vector<int32_t> Values, const Shape &Sizes);
 
 /// The elements of \p A, called \p Name in the error that is thrown where its

@@ -1,7 +1,12 @@
 #include "python/Bindings.h"
 
+#include "cameras/GoodView.h"
+#include "commands/CameraArguments.h"
 #include "io/Cameras.h"
+#include "picture/Options.h"
+#include "vorion/support/Outputs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -55,9 +60,49 @@ Camera made(std::string Name, int Width, int Height,
 
 } // namespace
 
+/// What no view can be found of.
+static void checkScene(const SceneFile &S) {
+  valueOf(checkFinite("the scene", S.Gaussians));
+  if (S.Gaussians.size() == 0)
+    throw Failed({"", "no Gaussians, expected at least one"});
+}
+
+/// The automatic view of \p S.
+static Camera found(const SceneFile &S, int Width, int Height) {
+  if (std::min(Width, Height) < 1 || std::max(Width, Height) > MaxImageSize)
+    throw Failed({"",
+                  fmt::format("a picture of {}x{} pixels, expected sides of 1 "
+                              "to {}",
+                              Width, Height, MaxImageSize),
+                  ExitCode::Usage});
+  checkScene(S);
+  return goodView(S.Gaussians, focusOf(S), Width, Height,
+                  nearLimit(Rules::Inria));
+}
+
+/// Those that the options of splat render in \p Given choose.
+static std::vector<Camera> chosen(const SceneFile &S, Words Given) {
+  CameraArguments A;
+  parse(std::move(Given), [&](CLI::App &App) {
+    addCameraOptions(App, A, /*Several=*/true);
+    App.add_option("--view", A.Views)->allow_extra_args(false);
+  });
+  checkScene(S);
+  const py::gil_scoped_release Released;
+  return valueOf(chooseCameras(A, S));
+}
+
+static void write(const std::string &Path, const std::vector<Camera> &Cameras) {
+  valueOf(claimOutputs({{"path", Path}}));
+  valueOf(writeCameras(Path, Cameras));
+}
+
 void addCamera(py::module_ &M) {
+  M.def("cameras", &chosen);
+  M.def("write_cameras", &write);
   py::class_<Camera>(M, "Camera")
       .def(py::init(&made))
+      .def_static("found", &found)
       .def_static("read",
                   [](const std::string &Path, const std::string &View) {
                     return valueOf(readCamera(Path, View));
@@ -66,6 +111,8 @@ void addCamera(py::module_ &M) {
           "read_all",
           [](const std::string &Path) { return valueOf(readCameras(Path)); })
       .def_readonly("name", &Camera::Name)
+      .def_property_readonly(
+          "model", [](const Camera &C) { return C.Optics.Model->Name; })
       .def_readonly("width", &Camera::Width)
       .def_readonly("height", &Camera::Height)
       .def_readonly("rotation", &Camera::Rotation)

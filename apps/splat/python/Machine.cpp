@@ -4,11 +4,14 @@
 
 #include "commands/Choices.h"
 #include "commands/DeviceArguments.h"
+#include "commands/EnergyArguments.h"
 #include "commands/PictureOptions.h"
+#include "picture/SceneUnit.h"
 #include "render/FrameTime.h"
 #include "render/Gradients.h"
 #include "render/Pictures.h"
 #include "render/Report.h"
+#include "scene/LocalFrame.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -147,7 +150,8 @@ std::unique_ptr<Machine> openMachine(
 /// What made a picture, as --json has it, but of files.
 py::object reportOf(const Machine &M, const SceneFile &S, const Camera &C,
                     const RenderOptions &O, const RenderPlan &Plan,
-                    const RenderResult &R) {
+                    const RenderResult &R,
+                    const std::optional<EnergyRequest> &Energy = {}) {
   Json Report{{"program", {{"name", "vorion"}, {"version", VORION_VERSION}}},
               {"scene",
                {{"gaussians", S.Gaussians.size()},
@@ -155,6 +159,8 @@ py::object reportOf(const Machine &M, const SceneFile &S, const Camera &C,
   Report.update(valueOf(drawnJson(C, O, Plan, M.device(), R)));
   if (Json Time = frameJson(R.Stages); !Time.is_null())
     Report["time"] = std::move(Time);
+  if (Energy)
+    Report["energy"] = valueOf(frameEnergyJson(R.Stages, *Energy));
   return toPython(Report);
 }
 
@@ -182,6 +188,20 @@ void addLayers(CLI::App &App, Layers &L) {
   App.add_option("--contributors", L.Top)->check(isBetween(0U, MaxTop));
 }
 
+/// \p S as a picture of \p C needs it, whose near plane \p O gets
+/// (SceneUnit.h).
+/// \p Copy holds it if it is in another frame.
+const Scene *preparedFor(const Scene &S, const Camera &C, RenderOptions &O,
+                         std::optional<Scene> &Copy) {
+  if (!O.Near)
+    O.Near = nearOfSmallScene(O.Convention, {C}, sampleOf(S));
+  if (S.MeanRests.empty())
+    return &S;
+  Copy = S;
+  recentre(*Copy, {C});
+  return &*Copy;
+}
+
 /// By name; what was not asked for is None.
 py::dict layersOf(const Layers &L, RenderResult &R, const RenderOptions &O,
                   const Shape &Sizes) {
@@ -206,10 +226,14 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
                  bool Depth, bool Normals, bool Timed) {
   DrawArguments A;
   Layers Beside{Depth, Normals};
+  EnergyArguments Asked;
   parse(std::move(Given), [&](CLI::App &App) {
     addDrawOptions(App, A);
     addLayers(App, Beside);
+    addEnergyOptions(App, Asked, "the picture");
   });
+  const auto Energy = valueOf(requestedEnergy(Asked, std::nullopt));
+  Timed |= Energy.has_value();
   valueOf(parseDrawTexts(A));
   A.Options.Optics = C.Optics.Model;
   A.Options.Rolling = C.Optics.Shutter.has_value();
@@ -219,22 +243,24 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
                                                        : "--depth-as median"));
   valueOf(checkBlends(M.device(), A.Options.Blending));
   drawAs(A.Options, S.DrawnAs);
+  std::optional<Scene> Copy;
+  const Scene &Drawn = *preparedFor(S.Gaussians, C, A.Options, Copy);
   RenderPlan Plan;
   RenderResult R = M.run(Timed, [&](Launcher &L) -> Expected<RenderResult> {
-    if (auto Finite = checkFinite("the scene", S.Gaussians); !Finite)
+    if (auto Finite = checkFinite("the scene", Drawn); !Finite)
       return Finite.error();
-    const ViewFacts Facts = factsOfAll(S.Gaussians, {C}, A.Options);
+    const ViewFacts Facts = factsOfAll(Drawn, {C}, A.Options);
     Plan = planRender(
-        EffectPlan(A.Request, {S.Gaussians, A.Options, Facts,
+        EffectPlan(A.Request, {Drawn, A.Options, Facts,
                                /*KeepPairs=*/false, Beside.needDepths(),
                                M.watching(Timed), Normals, Beside.needLists()}),
         A.Options);
     warnOfMissing(Plan.Effects, A.Effects);
-    return splat::render(L, Plan, S.Gaussians, C, A.Options,
+    return splat::render(L, Plan, Drawn, C, A.Options,
                          /*KeepPairs=*/false);
   });
   const Shape Sizes = sizesOf(C);
-  py::object Report = reportOf(M, S, C, A.Options, Plan, R);
+  py::object Report = reportOf(M, S, C, A.Options, Plan, R, Energy);
   py::dict By = layersOf(Beside, R, A.Options, Sizes);
   return py::make_tuple(
       arrayOf(std::move(R.Picture.Render), {Sizes[0], Sizes[1], 3}),
@@ -256,14 +282,16 @@ py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
   valueOf(checkBlends(M.device(), O.Blending));
   B.Parameters = Stored ? GradientsOf::Stored : GradientsOf::Activated;
   drawAs(O, S.DrawnAs);
+  std::optional<Scene> Copy;
+  const Scene &Drawn = *preparedFor(S.Gaussians, C, O, Copy);
   const Shape Sizes = sizesOf(C);
   const Shape Colours{Sizes[0], Sizes[1], 3};
   const PixelGradients U{valuesOf(ByImage, "v_image", Colours),
                          valuesOf(ByAlpha, "v_alpha", Sizes)};
   GradientResult R = M.run(Timed, [&](Launcher &L) -> Expected<GradientResult> {
-    if (auto Finite = checkFinite("the scene", S.Gaussians); !Finite)
+    if (auto Finite = checkFinite("the scene", Drawn); !Finite)
       return Finite.error();
-    return takeGradients(L, S.Gaussians, C, O, B, U);
+    return takeGradients(L, Drawn, C, O, B, U);
   });
   const std::size_t N = S.Gaussians.size();
   SceneGradients &G = R.Gradients;
@@ -276,7 +304,7 @@ py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
   By["sh"] = arrayOf(std::move(G.Sh), {N, S.Gaussians.coefficients(), 3});
   By["means2d"] = arrayOf(std::move(G.Means2d), {N, 2});
   By["conics"] = arrayOf(std::move(G.Conics), {N, 3});
-  py::object Report = reportOf(M, S, C, O, gradientPlan(S.Gaussians, C, O), R);
+  py::object Report = reportOf(M, S, C, O, gradientPlan(Drawn, C, O), R);
   return py::make_tuple(arrayOf(std::move(R.Picture.Render), Colours),
                         arrayOf(std::move(R.Picture.Alpha), Sizes),
                         std::move(By), std::move(Report));
@@ -305,9 +333,11 @@ void addMachine(py::module_ &M) {
   M.def("render_options", [] {
     DrawArguments A;
     Layers Beside;
+    EnergyArguments Energy;
     return optionNames([&](CLI::App &App) {
       addDrawOptions(App, A);
       addLayers(App, Beside);
+      addEnergyOptions(App, Energy, "");
     });
   });
   M.def("gradient_options", [] {

@@ -3,6 +3,7 @@
 
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
+#include "scene/LocalFrame.h"
 #include "scene/SceneWriter.h"
 #include "vorion/support/Outputs.h"
 
@@ -15,12 +16,44 @@ namespace py = pybind11;
 
 namespace {
 
+/// Rests that no picture shows would be wrong once Python changes the means.
+void dropIdleRests(Scene &S) {
+  if (!needsDoubles(S))
+    S.MeanRests.clear();
+}
+
+/// Where fp32 holds the means, an array that shares their memory; otherwise a
+/// copy in doubles, which cannot be written.
+py::array means(const py::object &Self) {
+  Scene &S = Self.cast<SceneFile &>().Gaussians;
+  const Shape Sizes{S.size(), 3};
+  if (S.MeanRests.empty())
+    return viewOf(S.Means, Sizes, Self);
+  std::vector<double> World(S.Means.size());
+  for (std::size_t I = 0; I < World.size(); ++I)
+    World[I] = S.mean(I);
+  py::array A = arrayOf(std::move(World), Sizes);
+  A.attr("setflags")(py::arg("write") = false);
+  return A;
+}
+
+/// \p Values: as many as there are.
+void setMeans(SceneFile &F,
+              const py::array_t<double, py::array::c_style |
+                                            py::array::forcecast> &Values) {
+  for (std::size_t I = 0; I < F.Gaussians.Means.size(); ++I)
+    F.Gaussians.setMean(I, Values.data()[I]);
+  dropIdleRests(F.Gaussians);
+}
+
 /// \p Given are options and the file.
 SceneFile read(Words Given) {
   const py::gil_scoped_release Released;
   SceneArguments A;
   parse(std::move(Given), [&](CLI::App &App) { addSceneOptions(App, A); });
-  return valueOf(loadScene(A));
+  SceneFile F = valueOf(loadScene(A));
+  dropIdleRests(F.Gaussians);
+  return F;
 }
 
 /// What the file does not have of the scene, by name.
@@ -75,7 +108,8 @@ void addScene(py::module_ &M) {
   C.def_static("read", read);
   C.def("write", write);
   C.def_static("sized", sized);
-  addView(C, "means", &Scene::Means, 3);
+  C.def_property_readonly("means", means);
+  C.def("set_means", setMeans);
   addView(C, "log_scales", &Scene::LogScales, 3);
   addView(C, "quats", &Scene::Quats, 4);
   addView(C, "opacity_logits", &Scene::OpacityLogits, 1);

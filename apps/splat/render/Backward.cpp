@@ -26,7 +26,8 @@ namespace {
 std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
                                       const BackwardOptions &B) {
   const EffectSwitch On = EffectSwitch::compiled();
-  std::vector<ProgramSpec> Programs{kernels::upstream::Program{}};
+  std::vector<ProgramSpec> Programs{kernels::upstream::Program{
+      .USE_MESH = O.Surface ? On : EffectSwitch::absent()}};
   const std::optional<cl_uint> AbsoluteSums =
       B.AbsoluteSums ? std::optional(2U) : std::nullopt;
   const auto AddBlending = [&](auto Program) {
@@ -80,13 +81,15 @@ void buildBackward(Launcher &Launch, int ShDegree, const RenderOptions &O,
 
 void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
                                    const cl::Buffer &ByAlpha,
-                                   const std::array<float, 3> &Background) {
+                                   const std::array<float, 3> &Background,
+                                   const std::optional<cl::Buffer> &Behind) {
   Upstream = Launch.allocate("pixels' gradients", 16 * uint64_t{F.pixels()});
   Launch.run(itemsFor(F.pixels()), GroupSize,
              kernels::upstream::upstream{.by_render = ByRender,
                                          .by_alpha = ByAlpha,
                                          .gradients = Upstream,
                                          .count = F.pixels(),
+                                         .behind = Behind,
                                          .red = Background[0],
                                          .green = Background[1],
                                          .blue = Background[2]});

@@ -79,10 +79,12 @@ public:
       : Launch(Launch), Options(O), Choice(B), ShDegree(ShDegree) {}
 
   /// Sets the gradients of the loss for each pixel: dL/d(red, green, blue) of
-  /// the picture over \p Background, and dL/d(alpha), 3 floats and 1.
+  /// the picture over \p Background, and dL/d(alpha), 3 floats and 1. With a
+  /// mesh \p Behind is that over the background, without Gaussians.
   void setUpstream(const Frame &F, const cl::Buffer &ByRender,
                    const cl::Buffer &ByAlpha,
-                   const std::array<float, 3> &Background);
+                   const std::array<float, 3> &Background,
+                   const std::optional<cl::Buffer> &Behind = std::nullopt);
   /// Backward pass through blending and projection of the frame that \p Forward
   /// rendered, as stages of the launcher; also through its depths if \p Known
   /// has targets.

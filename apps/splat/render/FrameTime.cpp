@@ -51,6 +51,8 @@ double milliseconds(const TimeReport &T) {
 
 /// Of a stage's copies between host and device.
 double copyMilliseconds(const StageReport &S, const HostTiming &Host) {
+  if (Host.CopyMbps == 0)
+    return 0; // the cycles have it
   return S.Copies * static_cast<double>(Host.CopyNs) / 1e6 +
          static_cast<double>(S.CopiedBytes) / (1e3 * Host.CopyMbps);
 }
@@ -85,13 +87,16 @@ double share(uint64_t Cycles, const std::vector<UnitCounts<Count>> &Units,
   return All > 0 ? 100 * Sum / All : 0;
 }
 
-/// Of the cores that wait for rasterizers, in percent.
-double rasterShare(const TimeReport &T) {
+/// Of the cores that wait for rasterizers or for a launch, in percent.
+double waitingShare(const TimeReport &T) {
   std::vector<CoreCount> Waits;
-  for (const CoreCount Reason : reasonsOf<CoreCount>())
-    if (Reasons<CoreCount>[static_cast<std::size_t>(Reason)].Group ==
-        ReasonGroup::CoreRasterizes)
+  for (const CoreCount Reason : reasonsOf<CoreCount>()) {
+    const ReasonGroup Group =
+        Reasons<CoreCount>[static_cast<std::size_t>(Reason)].Group;
+    if (Group == ReasonGroup::CoreRasterizes ||
+        Group == ReasonGroup::CoreAwaitsLaunch)
       Waits.push_back(Reason);
+  }
   return share(T.Cycles, T.Cores, Waits);
 }
 
@@ -99,6 +104,24 @@ double dramMegabytes(const TimeReport &T) {
   return (static_cast<double>(T.Dram[DramCount::ReadBursts]) +
           static_cast<double>(T.Dram[DramCount::WriteBursts])) *
          T.Host.DramBurstBytes / 1e6;
+}
+
+/// A line about the link to the L2; empty for a machine without one.
+std::string linkText(const TimeReport &T) {
+  const auto Megabytes = [&T](LinkCount Bytes) {
+    return static_cast<double>(T.Link[Bytes]) / 1e6;
+  };
+  const auto Busy = [&T](LinkCount Cycles) {
+    return 100 * static_cast<double>(T.Link[Cycles]) /
+           static_cast<double>(T.Cycles);
+  };
+  if (T.Link == UnitCounts<LinkCount>())
+    return {};
+  return fmt::format(
+      "link: {:.2f} MB to the L2, busy {:.1f} %; {:.2f} MB back, "
+      "busy {:.1f} %\n",
+      Megabytes(LinkCount::BytesToL2), Busy(LinkCount::BusyToL2),
+      Megabytes(LinkCount::BytesFromL2), Busy(LinkCount::BusyFromL2));
 }
 
 /// A column of the table: a reason for cycles of cores, by the report's name
@@ -185,7 +208,7 @@ struct SequenceTimes {
   std::optional<TimeReport> Sum;
   double Total = 0;               ///< ms, launches and copies included
   std::vector<double> Latency;    ///< ms, by picture
-  double Cores = 0;               ///< ms that they did not wait for rasterizers
+  double Cores = 0;               ///< ms that they had work of their own
   double Rasters = 0, Pixels = 0; ///< ms of the busiest
   double all() const { return Cores + Rasters + Pixels; }
   double bound() const { return std::max({Cores, Rasters, Pixels}); }
@@ -219,7 +242,7 @@ SequenceTimes::SequenceTimes(const SequenceResult &R)
     Same->CopiedBytes += S.CopiedBytes;
   }
   const double PerCycle = 1 / (1e3 * Sum->ClockMhz);
-  Cores = kernels() * (1 - rasterShare(*Sum) / 100);
+  Cores = kernels() * (1 - waitingShare(*Sum) / 100);
   Rasters =
       PerCycle * static_cast<double>(busyCycles(Sum->Cycles, Sum->Rasterizers));
   Pixels =
@@ -278,7 +301,7 @@ std::string frameText(const std::vector<StageReport> &Stages,
   for (const StageReport &S : Stages)
     if (const auto Time = stageTime(S))
       Text += Rows.row(name(S.Kind), *Time);
-  Text += Rows.row(What, *Whole);
+  Text += Rows.row(What, *Whole) + linkText(*Whole);
   const FrameMilliseconds F = frameMilliseconds(Stages, *Whole);
   return Text + fmt::format("{0} {1:.3f} ms, of which launches {2:.3f} and "
                             "copies {3:.3f}: {4:.2f} {0}s per second\n",
@@ -314,7 +337,7 @@ std::string sequenceText(const SequenceResult &R) {
   std::string Text = Rows.head();
   for (const StageReport &S : T.ByKind)
     Text += Rows.row(name(S.Kind), *stageTime(S));
-  Text += Rows.row("all", *T.Sum);
+  Text += Rows.row("all", *T.Sum) + linkText(*T.Sum);
   return Text +
          fmt::format("{} in {:.3f} ms: {:.2f} per second, latency {:.3f} ms "
                      "per picture\nbusy: cores {:.3f} ms, "

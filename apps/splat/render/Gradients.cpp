@@ -50,13 +50,24 @@ SceneGradients readGradients(Launcher &L, const BackwardPipeline &Back,
   return G;
 }
 
+/// The mesh of \p F over the background, without Gaussians.
+cl::Buffer meshAlone(Launcher &L, Frame F, const RenderOptions &Options) {
+  std::vector<float> Clear(4 * std::size_t{F.pixels()}, 0.0F);
+  for (std::size_t T = 3; T < Clear.size(); T += 4)
+    Clear[T] = 1;
+  F.Pixels = L.allocate("pixels without Gaussians", 4 * Clear.size());
+  L.write("pixels without Gaussians", F.Pixels, Clear.data(), 4 * Clear.size());
+  return resolveMesh(L, F, Options);
+}
+
 } // namespace
 
 RenderPlan gradientPlan(const Scene &S, const Camera &C,
                         const RenderOptions &Options) {
   return planRender(
-      EffectPlan::forAnyScene(S.ShDegree, Options,
-                              factsOf(S, makeView(C, Options), Options)),
+      EffectPlan::forAnyScene(
+          S.ShDegree, Options,
+          factsOf(S, makeView(relativeTo(C, S.Origin), Options), Options)),
       Options);
 }
 
@@ -79,7 +90,10 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
     return *L.failure();
 
   L.beginStage(Stage::Upload);
-  const GaussianBuffers Gaussians = uploadGaussians(L, S, ShDegree);
+  GaussianBuffers Gaussians = uploadGaussians(L, S, ShDegree);
+  const bool HasMesh = Plan.Effects.done(effects::Mesh);
+  if (HasMesh)
+    Gaussians.Surface = uploadMesh(L, *Options.Surface, Plan.Effects);
   const cl::Buffer ByRender =
       L.allocate("pictures' gradients", 4 * U.Render.size());
   const cl::Buffer ByAlpha =
@@ -92,15 +106,22 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   Forward.draw(Gaussians, C);
   BackwardPipeline Back(L, Options, Backward, ShDegree);
   L.beginStage(Stage::Upstream);
-  Back.setUpstream(Forward.frame(), ByRender, ByAlpha, Options.Background);
+  Back.setUpstream(Forward.frame(), ByRender, ByAlpha, Options.Background,
+                   HasMesh
+                       ? std::optional(meshAlone(L, Forward.frame(), Options))
+                       : std::nullopt);
   Back.run(Forward);
 
   L.beginStage(Stage::Resolve);
-  const cl::Buffer Picture = resolve(L, Forward.frame(), Options.Background);
+  const cl::Buffer Picture =
+      HasMesh ? resolveMesh(L, Forward.frame(), Options)
+              : resolve(L, Forward.frame(), Options.Background);
   L.beginStage(Stage::ReadBack);
   GradientResult R;
   R.Picture = readPicture(L, Forward.frame(), Picture);
   R.Gradients = readGradients(L, Back, Forward.frame(), ShDegree);
+  if (Options.KeepVisible)
+    R.MeshShown = readVisible(L, Forward.frame(), Options.Optics->IsParallel);
   if (L.failure())
     return *L.failure();
   R.Visible = Forward.frame().seen();

@@ -39,7 +39,7 @@ RenderPlan gradientPlan(const Scene &S, const Camera &C,
                         const RenderOptions &Options);
 
 /// Renders the view \p C of \p S and propagates \p U to the parameters. \p
-/// Options must have Training set.
+/// Options must have Training set. A mesh of theirs must be opaque.
 Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
                                        const Camera &C,
                                        const RenderOptions &Options,

@@ -36,7 +36,7 @@ ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
                      const RenderOptions &O) {
   std::optional<ViewFacts> All;
   for (const Camera &C : Cameras) {
-    const ViewFacts Own = factsOf(S, makeView(C, O), O);
+    const ViewFacts Own = factsOf(S, makeView(relativeTo(C, S.Origin), O), O);
     All = All ? combined(*All, Own) : Own;
   }
   return *All;
@@ -60,9 +60,14 @@ Expected<Json> reportOf(const PictureJob &J, const std::string &Output,
   auto Report =
       jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input, C,
                   J.Options, J.Plan, J.Launch.device(), R});
-  if (Report)
-    if (const auto Added = addEnergy(*Report, J, R.Stages); !Added)
-      return Added.error();
+  if (!Report)
+    return Report;
+  if (const auto Time = Report->find("time"); Time != Report->end())
+    (*Report)["bounds"] = boundsJson(*Time, J.Others);
+  if (!J.Others.empty())
+    (*Report)["what_if"] = whatIfJson(J.Others, pictureHash(R.Picture));
+  if (const auto Added = addEnergy(*Report, J, R.Stages); !Added)
+    return Added.error();
   return Report;
 }
 

@@ -4,6 +4,7 @@
 #include "render/FrameEnergy.h"
 #include "render/Layers.h"
 #include "render/Renderer.h"
+#include "render/WhatIf.h"
 #include "scene/SceneFile.h"
 
 #include <functional>
@@ -28,6 +29,7 @@ struct PictureJob {
   /// @}
   PictureFormat Format = {};
   std::optional<EnergyRequest> Energy = std::nullopt;
+  std::vector<WhatIf> Others; ///< the same picture on other machines
 };
 
 /// The combined properties of all views: an effect is needed if one view needs

@@ -57,13 +57,15 @@ std::vector<std::size_t> bandPlanes(const EffectPlan &Plan) {
   return Planes;
 }
 
-/// Buffers for \p Geometry and \p Sh words of \p Count Gaussians.
-GaussianBuffers allocate(Launcher &Launch, std::size_t Count,
-                         std::size_t Geometry, std::size_t Sh) {
+/// Buffers for \p Geometry and \p Sh words of the Gaussians of \p S.
+GaussianBuffers allocate(Launcher &Launch, const Scene &S, std::size_t Geometry,
+                         std::size_t Sh) {
   return {Launch.allocate("Gaussians' geometry", 4 * Geometry),
           Launch.allocate("Gaussians' colours", 4 * Sh),
-          static_cast<uint32_t>(Count),
-          {}};
+          static_cast<uint32_t>(S.size()),
+          {},
+          {},
+          S.Origin};
 }
 
 } // namespace
@@ -72,9 +74,10 @@ GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
                                 int ShDegree) {
   const std::vector<float> Geometry = geometryPlanes(S),
                            Sh = shPlanes(S, ShDegree);
-  GaussianBuffers B = allocate(Launch, S.size(), Geometry.size(), Sh.size());
+  GaussianBuffers B = allocate(Launch, S, Geometry.size(), Sh.size());
   Launch.write("Gaussians", B.Geometry, Geometry.data(), 4 * Geometry.size());
   Launch.write("colours", B.Sh, Sh.data(), 4 * Sh.size());
+  Launch.settle();
   return B;
 }
 
@@ -83,7 +86,7 @@ GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
   const std::vector<std::size_t> Planes = bandPlanes(Plan);
   const std::size_t Geometry = blockWords(S.size(), GEOMETRY_PLANES),
                     Sh = blockWords(S.size(), Planes.size());
-  GaussianBuffers B = allocate(Launch, S.size(), Geometry, Sh);
+  GaussianBuffers B = allocate(Launch, S, Geometry, Sh);
   Launch.writeInPlace("Gaussians", B.Geometry, Geometry,
                       [&](auto To) { writeGeometryBlocks(S, To); });
   Launch.writeInPlace("colours", B.Sh, Sh,
@@ -94,6 +97,7 @@ GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
     Launch.write("bounds of blocks", B.Bounds, Bounds.data(),
                  4 * Bounds.size());
   }
+  Launch.settle();
   return B;
 }
 
@@ -107,7 +111,8 @@ void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
   blend();
 }
 
-void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
+void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &Given) {
+  const Camera C = relativeTo(Given, Gaussians.Origin);
   Current = {};
   Current.View = makeView(C, Options);
   Current.View.effects = Plan.flags();
@@ -129,6 +134,9 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   };
   if (Plan.done(effects::RayOrder) && !IsPinhole)
     return FailWithout("--order ray", "whose rays come from one point");
+  if (Plan.done(effects::Mesh) && !Launch.device().isVorion())
+    return Launch.fail({"", "--mesh: a device without Vorion's headers, "
+                            "expected a Vorion"});
   if (Plan.done(effects::CullBlocks) && !IsPinhole)
     return FailWithout("--cull-blocks", "which sees between planes");
   Current.Copies = Options.Optics->CoversSphere ? 3 : 1;
@@ -145,6 +153,31 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   duplicate();
   Launch.beginStage(Stage::SortByTile);
   sortByTile();
+  if (!Plan.done(effects::Mesh))
+    return;
+  Launch.beginStage(Stage::Mesh);
+  drawMesh();
+}
+
+/// What the blending kernels take with the effect Mesh.
+std::optional<cl::Buffer> Pipeline::limits() const {
+  return Plan.done(effects::Mesh) ? std::optional(Current.Surface.Limits)
+                                  : std::nullopt;
+}
+
+std::optional<cl::Buffer> Pipeline::visibleMesh() const {
+  return Plan.done(effects::Mesh) ? std::optional(Current.Surface.Visible)
+                                  : std::nullopt;
+}
+
+/// And with the effect Layers.
+std::optional<cl::Buffer> Pipeline::withLayers(const cl::Buffer &Own) const {
+  return Plan.done(effects::Layers) ? std::optional(Own) : std::nullopt;
+}
+
+std::optional<cl_uint> Pipeline::numberOf(uint32_t Range) const {
+  return Plan.done(effects::Layers) ? std::optional(cl_uint{Range})
+                                    : std::nullopt;
 }
 
 void Pipeline::project(const Camera &C) {
@@ -358,20 +391,40 @@ void Pipeline::placeInWindows() {
                  .windows = Current.Windows});
 }
 
+/// The ranges of the lists, and the layers between them.
 void Pipeline::blend() {
-  if (Options.Blending == Path::Simt)
-    return shade();
-  prepareRasterizers();
+  const bool OnCores = Options.Blending == Path::Simt;
+  if (OnCores) {
+    placeInWindows();
+    allocatePixels();
+  } else {
+    prepareRasterizers();
+  }
+  for (uint32_t Range = 0; Range <= Current.Surface.MostLayers; ++Range) {
+    if (Range != 0)
+      composeLayer(Range - 1);
+    if (OnCores)
+      shade(Range);
+    else
+      rasterize(Range);
+  }
+}
+
+void Pipeline::rasterize(uint32_t Range) {
   Launch.run(Launch.device().computeUnits() * Lanes, Lanes,
-             kernels::rasterize::rasterize{.records = Current.Blended,
-                                           .list = Current.List,
-                                           .ranges = Current.Ranges,
-                                           .tile_order = Current.TileOrder,
-                                           .pixels = Current.Parts,
-                                           .last = Current.Last,
-                                           .tails = Current.Tails,
-                                           .statuses = Current.Statuses,
-                                           .options = blendOptions()});
+             kernels::rasterize::rasterize{
+                 .records = Current.Blended,
+                 .list = Current.List,
+                 .ranges = Current.Ranges,
+                 .tile_order = Current.TileOrder,
+                 .pixels = Current.Parts,
+                 .last = Current.Last,
+                 .tails = Current.Tails,
+                 .limits = limits(),
+                 .tile_layers = withLayers(Current.Surface.TileLayers),
+                 .layer = numberOf(Range),
+                 .statuses = Current.Statuses,
+                 .options = blendOptions()});
   endBlending();
 }
 
@@ -427,29 +480,37 @@ Frame Pipeline::drawBeside(const cl::Buffer &Records) {
   return std::exchange(Current, Own);
 }
 
-void Pipeline::shade() {
-  placeInWindows();
-  allocatePixels();
+void Pipeline::shade(uint32_t Range) {
   const std::size_t Group = Options.SimtGroup;
   const cl::NDRange Items(Current.View.tiles[0] * Group, Current.View.tiles[1]);
   const cl::NDRange GroupItems(Group, 1);
   if (Plan.done(effects::RayOrder))
     return Launch.run(
         Items, GroupItems,
-        kernels::blend_by_ray::blend_by_ray{.view = Current.Camera,
-                                            .records = Current.Blended,
-                                            .frames = Current.RayFrames,
-                                            .list = Current.List,
-                                            .ranges = Current.Ranges,
-                                            .pixels = Current.Pixels,
-                                            .cutoff = Options.Cutoff,
-                                            .effects = Current.View.effects});
+        kernels::blend_by_ray::blend_by_ray{
+            .view = Current.Camera,
+            .records = Current.Blended,
+            .frames = Current.RayFrames,
+            .list = Current.List,
+            .ranges = Current.Ranges,
+            .pixels = Current.Pixels,
+            .visible = visibleMesh(),
+            .layers = withLayers(Current.Surface.Layers),
+            .layer_counts = withLayers(Current.Surface.LayerCounts),
+            .tile_layers = withLayers(Current.Surface.TileLayers),
+            .layer = numberOf(Range),
+            .cutoff = Options.Cutoff,
+            .effects = Current.View.effects});
   Launch.run(Items, GroupItems,
              kernels::blend::blend{.records = Current.Blended,
                                    .list = Current.List,
                                    .ranges = Current.Ranges,
                                    .pixels = Current.Pixels,
                                    .last = Current.Last,
+                                   .limits = limits(),
+                                   .tile_layers =
+                                       withLayers(Current.Surface.TileLayers),
+                                   .layer = numberOf(Range),
                                    .width = Current.View.size[0],
                                    .height = Current.View.size[1],
                                    .cutoff = Options.Cutoff,
@@ -502,11 +563,12 @@ void Pipeline::prepareRasterizers() {
         "depth parts", 16 * uint64_t{Current.pixels()} * Options.ZTiles);
   Current.TileOrder = words("tile order", wordsOfOrder());
   Current.Statuses = words("cores' statuses", Launch.device().computeUnits());
+  const uint64_t Tail =
+      TAIL_BYTES + (Plan.done(effects::Mesh) ? TAIL_RANGE_BYTES : 0);
   Current.Tails = Launch.allocate("hand-over records",
                                   Plan.done(effects::PixelUnit)
-                                      ? uint64_t{TAIL_BYTES} * Options.ZTiles *
-                                            Current.tiles()
-                                      : TAIL_BYTES);
+                                      ? Tail * Options.ZTiles * Current.tiles()
+                                      : Tail);
   if (Options.Deal == Dealing::LastFrame)
     return dealByLastFrame();
   Launch.run(itemsFor(Current.tiles()), GroupSize,
@@ -542,16 +604,19 @@ void Pipeline::dealByLastFrame() {
 }
 
 void Pipeline::startBlending() {
-  Launch.run(
-      Launch.device().computeUnits() * Lanes, Lanes,
-      kernels::rasterize::rasterize_start{.records = Current.Blended,
-                                          .list = Current.List,
-                                          .ranges = Current.Ranges,
-                                          .tile_order = Current.TileOrder,
-                                          .pixels = Current.Parts,
-                                          .last = Current.Last,
-                                          .tails = Current.Tails,
-                                          .options = blendOptions()});
+  Launch.run(Launch.device().computeUnits() * Lanes, Lanes,
+             kernels::rasterize::rasterize_start{
+                 .records = Current.Blended,
+                 .list = Current.List,
+                 .ranges = Current.Ranges,
+                 .tile_order = Current.TileOrder,
+                 .pixels = Current.Parts,
+                 .last = Current.Last,
+                 .tails = Current.Tails,
+                 .limits = limits(),
+                 .tile_layers = withLayers(Current.Surface.TileLayers),
+                 .layer = numberOf(0),
+                 .options = blendOptions()});
 }
 
 void Pipeline::waitForBlending() {

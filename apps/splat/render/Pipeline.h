@@ -1,7 +1,9 @@
 /// The stages of a picture on the device, from Gaussians to blended pixels.
 #pragma once
 
-#include "io/Cameras.h"
+#include "device/Launcher.h"
+#include "io/LocalFrame.h"
+#include "mesh/Mesh.h"
 #include "picture/Layout.h"
 #include "render/Plan.h"
 #include "render/Sorter.h"
@@ -9,8 +11,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -28,13 +32,54 @@ inline constexpr std::array<std::string_view, 5> CullReasons{
 /// Work-items of a group that occupies a core: those of a warp.
 inline constexpr std::size_t Lanes = 16;
 
+/// A mesh in device memory.
+struct MeshBuffers {
+  cl::Buffer Positions, Colors, Corners; ///< as in Mesh
+  /// With the effect \c Texture: as in Mesh; a splat_material each; the texels
+  /// of all textures; and the 256 values of a channel in linear light.
+  std::optional<cl::Buffer> TextureCoordinates, MaterialOf, Materials, Texels,
+      Linear;
+  std::optional<cl::Buffer> Normals; ///< with the effect \c Light
+  uint32_t Vertices = 0, Triangles = 0;
+};
+
+/// Copies what the effects of \p Plan need of \p M.
+MeshBuffers uploadMesh(Launcher &Launch, const Mesh &M, const EffectPlan &Plan);
+
+/// What a mesh leaves of a picture before Gaussians are blended.
+struct MeshFrame {
+  cl::Buffer Points;  ///< of its vertices in the camera's axes
+  cl::Buffer Visible; ///< a vx_visibility a pixel (docs/primitives.md)
+  /// Entries of the tile's list in front of it, by pixel. With the effect \c
+  /// Layers a plane for each range between layers.
+  cl::Buffer Limits;
+  /// With the effect \c Layers: numbers of layers by pixel, a plane of
+  /// vx_visibility for each, and the largest numbers of tiles.
+  cl::Buffer LayerCounts, Layers, TileLayers;
+  uint32_t MostLayers = 0; ///< of a pixel
+};
+
+/// The mesh in each pixel, rows from the top.
+struct VisibleMesh {
+  int Width = 0, Height = 0;
+  std::vector<float> Depth;       ///< along the camera's axis; infinite: none
+  std::vector<int32_t> Triangles; ///< of the mesh; -1: none
+  /// The same of transparent ones in front of it, a plane for each, the nearest
+  /// first.
+  std::vector<float> LayerDepths;
+  std::vector<int32_t> LayerTriangles;
+};
+
 /// Gaussians in device memory, before activation: in planes for training,
 /// otherwise in blocks of planes (kernels/layout.h).
 struct GaussianBuffers {
   cl::Buffer Geometry; ///< planes of layout.h's GEOMETRY_PLANES
   cl::Buffer Sh;       ///< plane 3 k + c: k-th stored coefficient of channel c
   uint32_t Count = 0;
-  cl::Buffer Bounds; ///< bounds of blocks, with the effect \c CullBlocks
+  cl::Buffer Bounds;   ///< bounds of blocks, with the effect \c CullBlocks
+  MeshBuffers Surface; ///< with the effect \c Mesh
+  WorldPoint Origin{}; ///< of the means (Scene.h); cameras are in the caller's
+                       ///< frame
 };
 
 /// Copies \p S to the device in planes, with harmonics up to \p ShDegree.
@@ -79,6 +124,7 @@ struct Frame {
   splat_windows Windows{};
   cl::Buffer WindowRays;
   uint32_t WindowCount = 0;
+  MeshFrame Surface;    ///< with the effect \c Mesh
   cl::Buffer RayFrames; ///< with the effect \c RayOrder: a splat_ray_frame for
                         ///< each Gaussian
   uint32_t Visible = 0, Pairs = 0;
@@ -155,14 +201,27 @@ private:
   void countPairs();
   void duplicate();
   void sortByTile();
+  void placeMesh();
+  Frame setUpMesh(AlphaMode Mode);
+  void drawMesh();
+  void drawOpaque(const Frame &Triangles);
+  void drawFragments(const Frame &Triangles);
+  void clearLayers();
+  void sortLayers();
+  void composeLayer(uint32_t Layer);
+  std::optional<cl::Buffer> limits() const;
+  std::optional<cl::Buffer> visibleMesh() const;
+  std::optional<cl::Buffer> withLayers(const cl::Buffer &Own) const;
+  std::optional<cl_uint> numberOf(uint32_t Range) const;
   void placeInWindows();
   void blend();
+  void rasterize(uint32_t Range);
   cl::Buffer blendAgain();
   uint64_t wordsOfOrder() const;
   void dealByLastFrame();
   void allocatePixels();
   cl::Buffer countsOfTiles();
-  void shade();
+  void shade(uint32_t Range);
   void prepareRays();
   cl::Buffer words(std::string_view What, uint64_t N) {
     return Launch.allocate(What, 4 * N);

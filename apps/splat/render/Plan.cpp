@@ -7,11 +7,18 @@
 #include "kernels/cull_blocks.cl.h"
 #include "kernels/depth.cl.h"
 #include "kernels/merge.cl.h"
+#include "kernels/mesh.cl.h"
+#include "kernels/mesh_fragments.cl.h"
+#include "kernels/mesh_fragments_simt.cl.h"
+#include "kernels/mesh_layers.cl.h"
+#include "kernels/mesh_raster.cl.h"
+#include "kernels/mesh_simt.cl.h"
 #include "kernels/normals.cl.h"
 #include "kernels/project.cl.h"
 #include "kernels/rasterize.cl.h"
 #include "kernels/ray_frames.cl.h"
 #include "kernels/resolve.cl.h"
+#include "kernels/scan.cl.h"
 #include "kernels/sort.cl.h"
 #include "kernels/tiles.cl.h"
 #include "kernels/windows.cl.h"
@@ -40,6 +47,21 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
     Add(kernels::blend::Program{});
   if (ByRay)
     Add(kernels::ray_frames::Program{});
+  if (Plan.Effects.done(effects::Mesh)) {
+    Add(kernels::scan::Program{});
+    Add(kernels::mesh::Program{});
+    if (Options.Blending == Path::Raster)
+      Add(kernels::mesh_raster::Program{});
+    else
+      Add(kernels::mesh_simt::Program{});
+    if (Plan.Effects.done(effects::Layers)) {
+      Add(kernels::mesh_layers::Program{});
+      if (Options.Blending == Path::Raster)
+        Add(kernels::mesh_fragments::Program{});
+      else
+        Add(kernels::mesh_fragments_simt::Program{});
+    }
+  }
   if (Plan.Effects.done(effects::Windows))
     Add(kernels::windows::Program{});
   if (Plan.Effects.done(effects::ActivatedScene))

@@ -8,6 +8,10 @@
 #include <array>
 #include <fmt/format.h>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -44,6 +48,16 @@ DepthMap readDepths(Launcher &Launch, const Frame &F,
   return D;
 }
 
+/// Behind the Gaussians of \p D.
+void addSurface(DepthMap &D, const VisibleMesh &V) {
+  for (std::size_t P = 0; P < V.Triangles.size(); ++P) {
+    if (V.Triangles[P] < 0)
+      continue;
+    D.Depth[P] += (1 - D.Alpha[P]) * V.Depth[P];
+    D.Alpha[P] = 1;
+  }
+}
+
 } // namespace
 
 cl::Buffer resolve(Launcher &Launch, const Frame &F,
@@ -60,21 +74,31 @@ cl::Buffer resolve(Launcher &Launch, const Frame &F,
   return Picture;
 }
 
-Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
-                  bool Resolved) {
+/// A picture of \p F that is still 0.
+static Image blank(const Frame &F) {
   Image I;
   I.Width = static_cast<int>(F.View.size[0]);
   I.Height = static_cast<int>(F.View.size[1]);
   const std::size_t Pixels = F.pixels();
   I.Render.resize(3 * Pixels);
   I.Alpha.resize(Pixels);
-  Launch.readInPlace("picture", Picture, 4 * Pixels, [&](auto Rgba) {
-    for (std::size_t P = 0; P < Pixels; ++P) {
-      for (std::size_t K = 0; K < 3; ++K)
-        I.Render[3 * P + K] = Rgba[4 * P + K];
-      I.Alpha[P] = Resolved ? Rgba[4 * P + 3] : 1 - Rgba[4 * P + 3];
-    }
-  });
+  return I;
+}
+
+/// The pixels of \p I from those of the device.
+static void fill(Image &I, bool Resolved, std::span<const float> Rgba) {
+  for (std::size_t P = 0; P < I.Alpha.size(); ++P) {
+    for (std::size_t K = 0; K < 3; ++K)
+      I.Render[3 * P + K] = Rgba[4 * P + K];
+    I.Alpha[P] = Resolved ? Rgba[4 * P + 3] : 1 - Rgba[4 * P + 3];
+  }
+}
+
+Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
+                  bool Resolved) {
+  Image I = blank(F);
+  Launch.readInPlace("picture", Picture, 4 * std::size_t{F.pixels()},
+                     [&](auto Rgba) { fill(I, Resolved, Rgba); });
   return I;
 }
 
@@ -91,23 +115,45 @@ Expected<Success> build(Launcher &Launch, const RenderPlan &Plan,
 
 namespace {
 
-/// From blended pixels to the host.
-RenderResult finish(Launcher &Launch, const RenderPlan &Plan, const Frame &F,
-                    const RenderOptions &Options) {
+/// A picture on its way to the host.
+struct Arriving {
+  RenderResult Result; ///< with a blank picture
+  bool Resolved = false;
+  PendingRead Pixels;
+};
+
+/// From blended pixels to the host, until finish().
+Arriving startFinish(Launcher &Launch, const RenderPlan &Plan, const Frame &F,
+                     const RenderOptions &Options) {
   // Without a background the pixels are the picture, but for 1 - T.
-  const bool Resolved = Plan.Effects.done(effects::Background);
+  const bool HasMesh = Plan.Effects.done(effects::Mesh);
+  Arriving A{.Result = {},
+             .Resolved = HasMesh || Plan.Effects.done(effects::Background),
+             .Pixels = {}};
   cl::Buffer Picture = F.Pixels;
-  if (Resolved) {
+  if (A.Resolved) {
     Launch.beginStage(Stage::Resolve);
-    Picture = resolve(Launch, F, Options.Background);
+    Picture = HasMesh ? resolveMesh(Launch, F, Options)
+                      : resolve(Launch, F, Options.Background);
   }
   Launch.beginStage(Stage::ReadBack);
-  RenderResult R;
-  R.Visible = F.seen();
-  R.Pairs = F.Pairs;
-  R.Culled = F.Culled;
-  R.Picture = readPicture(Launch, F, Picture, Resolved);
-  return R;
+  A.Result.Visible = F.seen();
+  A.Result.Pairs = F.Pairs;
+  A.Result.Culled = F.Culled;
+  A.Result.Picture = blank(F);
+  A.Pixels = Launch.startReading("picture", Picture, 4 * uint64_t{F.pixels()});
+  return A;
+}
+
+RenderResult finish(Launcher &Launch, Arriving A) {
+  Launch.finishReading(
+      A.Pixels, [&](auto Rgba) { fill(A.Result.Picture, A.Resolved, Rgba); });
+  return std::move(A.Result);
+}
+
+RenderResult finish(Launcher &Launch, const RenderPlan &Plan, const Frame &F,
+                    const RenderOptions &Options) {
+  return finish(Launch, startFinish(Launch, Plan, F, Options));
 }
 
 /// Renders the pictures of a sequence, and knows which stage is whose.
@@ -136,7 +182,8 @@ public:
   }
 
   /// While a picture is blended the next one is prepared. The rasterizers get
-  /// that as soon as they are done, before the first one is resolved.
+  /// that as soon as they are done, before the first one is resolved. With DMA
+  /// engines the first one goes to the host while the one after it is prepared.
   void overlapped() {
     Pipeline Both[2] = {{Launch, Options, Plan.Effects},
                         {Launch, Options, Plan.Effects}};
@@ -158,6 +205,7 @@ public:
     const std::size_t Last = Cameras.size() - 1;
     wait(Last, Both[Last % 2]);
     end(Last, Both[Last % 2]);
+    arrived();
   }
 
   /// Needs that nothing failed.
@@ -183,7 +231,22 @@ private:
   void end(std::size_t Frame, Pipeline &P) {
     Launch.beginStage(Stage::EndBlending);
     P.endBlending();
-    take(Frame, P);
+    arrived();
+    if (!Launch.device().copiesOverlap())
+      return take(Frame, P);
+    if (Launch.failure())
+      return;
+    Coming.emplace(Frame, startFinish(Launch, Plan, P.frame(), Options));
+    own(Frame);
+  }
+  /// Waits for the picture that is on its way, if there is one.
+  void arrived() {
+    if (!Coming || Launch.failure())
+      return;
+    auto &[Frame, Picture] = *Coming;
+    Result.Frames[Frame] = finish(Launch, std::move(Picture));
+    Result.Frames[Frame].DeviceBytes = Launch.mostBytes();
+    Coming.reset();
   }
   void take(std::size_t Frame, const Pipeline &P) {
     if (Launch.failure())
@@ -200,6 +263,7 @@ private:
   const RenderOptions &Options;
   std::size_t FirstStage;
   SequenceResult Result;
+  std::optional<std::pair<std::size_t, Arriving>> Coming; ///< and its number
 };
 
 } // namespace
@@ -224,6 +288,8 @@ Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
   RenderResult R = finish(Launch, Plan, P.frame(), Options);
   if (KeepPairs)
     R.Sorted = readPairs(Launch, P.frame());
+  if (Options.KeepVisible)
+    R.MeshShown = readVisible(Launch, P.frame(), Options.Optics->IsParallel);
   if (Plan.Effects.done(effects::PixelLists))
     R.Lists = readLists(Launch, P.frame(), Options);
   if (Plan.Effects.done(effects::Normals)) {
@@ -234,6 +300,9 @@ Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
   if (Plan.Effects.done(effects::Depth)) {
     Launch.beginStage(Stage::Depth);
     R.Depths = readDepths(Launch, P.frame(), P.drawDepths());
+    if (Plan.Effects.done(effects::Mesh))
+      addSurface(*R.Depths,
+                 readVisible(Launch, P.frame(), Options.Optics->IsParallel));
   }
   if (Launch.failure())
     return *Launch.failure();
@@ -242,14 +311,23 @@ Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
   return R;
 }
 
+/// \p S, and the mesh if there is one.
+static GaussianBuffers upload(Launcher &Launch, const RenderPlan &Plan,
+                              const Scene &S, const RenderOptions &Options) {
+  GaussianBuffers B = uploadGaussians(Launch, S, Plan.Effects);
+  if (Plan.Effects.done(effects::Mesh))
+    B.Surface = uploadMesh(Launch, *Options.Surface, Plan.Effects);
+  return B;
+}
+
 Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
                               const Scene &S, const Camera &C,
                               const RenderOptions &Options, bool KeepPairs) {
   if (auto Built = build(Launch, Plan, S); !Built)
     return Built.error();
   Launch.beginStage(Stage::Upload);
-  return draw(Launch, Plan, uploadGaussians(Launch, S, Plan.Effects), C,
-              Options, KeepPairs);
+  return draw(Launch, Plan, upload(Launch, Plan, S, Options), C, Options,
+              KeepPairs);
 }
 
 Expected<SequenceResult> renderSequence(Launcher &Launch,
@@ -260,7 +338,7 @@ Expected<SequenceResult> renderSequence(Launcher &Launch,
   if (auto Built = build(Launch, Plan, S); !Built)
     return Built.error();
   Launch.beginStage(Stage::Upload);
-  const GaussianBuffers Gaussians = uploadGaussians(Launch, S, Plan.Effects);
+  const GaussianBuffers Gaussians = upload(Launch, Plan, S, Options);
   Sequence Views(Launch, Plan, Gaussians, Cameras, Options);
   Views.activate();
   if (Overlap)

@@ -31,12 +31,19 @@ struct RenderResult {
   std::optional<DepthMap> Depths; ///< with the effect \c Depth
   /// With the effect \c Normals: sums of weights times normals, as colours.
   std::optional<Image> Normals;
-  std::optional<PixelLists> Lists; ///< with the effect \c PixelLists
+  std::optional<PixelLists> Lists;      ///< with the effect \c PixelLists
+  std::optional<VisibleMesh> MeshShown; ///< with RenderOptions::KeepVisible
 };
 
 /// The picture of \p F over \p Background, for the host.
 cl::Buffer resolve(Launcher &Launch, const Frame &F,
                    const std::array<float, 3> &Background);
+/// The same over the mesh of the effect \c Mesh, where there is one.
+cl::Buffer resolveMesh(Launcher &Launch, const Frame &F,
+                       const RenderOptions &Options);
+/// The mesh in the pixels of \p F, whose camera has parallel rays if \p
+/// IsParallel.
+VisibleMesh readVisible(Launcher &Launch, const Frame &F, bool IsParallel);
 /// \p Resolved: the fourth channel is alpha, not transmittance.
 Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
                   bool Resolved = true);

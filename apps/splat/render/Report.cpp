@@ -4,6 +4,7 @@
 #include "device/Configuration.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
+#include "mesh/Mesh.h"
 #include "render/Explain.h"
 #include "render/FrameTime.h"
 #include "render/Gradients.h"
@@ -195,6 +196,14 @@ Expected<Json> jsonReport(const RenderRecord &R) {
        {"picture", R.Output},
        {"result_fnv1a64", resultHash(R)}});
   Report.update(*Drawn);
+  if (const Mesh *M = R.Options.Surface.get())
+    Report["mesh"] = {{"file", M->File},
+                      {"vertices", M->vertices()},
+                      {"triangles", M->triangles()},
+                      {"textures", M->Textures.size()},
+                      {"light", R.Options.Light
+                                    ? nlohmann::ordered_json(*R.Options.Light)
+                                    : nlohmann::ordered_json()}};
   if (R.Back) {
     auto Hash = hashFile(R.Back->Upstream);
     if (!Hash)
@@ -221,7 +230,7 @@ std::string textReport(const Camera &View, const RenderOptions &Options,
       escaped(View.Name), View.Width, View.Height, Dev.name(),
       name(Options.Convention), name(Options.Reach), name(Options.Blending),
       counted(Result.Visible, "Gaussian"), counted(Result.Pairs, "pair"),
-      Options.tileSize(), Options.tileSize());
+      Options.tileSize(), Options.tileHeight());
   Text += "culled:";
   for (std::size_t I = 0; I < CullReasons.size(); ++I)
     Text += fmt::format("{} {} {}", I == 0 ? "" : ",", Result.Culled[I],

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vorion::splat {
 
@@ -30,6 +31,16 @@ float opacityLogit(double Opacity) {
   constexpr double Limit = 30;
   const double Logit = std::log(Opacity) - std::log1p(-Opacity);
   return static_cast<float>(std::clamp(Logit, -Limit, Limit));
+}
+
+void resolveInfinities(Scene &S) {
+  constexpr float Infinity = std::numeric_limits<float>::infinity();
+  const float Absent = opacityLogit(0), Opaque = opacityLogit(1);
+  for (float &Logit : S.OpacityLogits)
+    if (std::isinf(Logit))
+      Logit = Logit > 0 ? Opaque : Absent;
+  std::ranges::replace(S.LogScales, -Infinity,
+                       std::log(std::numeric_limits<float>::min()));
 }
 
 template Activated<float> activate<float>(const Scene &);

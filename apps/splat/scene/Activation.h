@@ -27,6 +27,12 @@ template <typename Real> Activated<Real> activate(const Scene &S);
 /// 1e-13 of 0 or 1.
 float opacityLogit(double Opacity);
 
+/// Replaces the infinities of \p S that have a meaning by finite values of the
+/// same picture: a logit of +infinity (opaque) and of -infinity (absent) by
+/// those of opacityLogit(), a log scale of -infinity (flat) by that of the
+/// smallest normal float.
+void resolveInfinities(Scene &S);
+
 extern template Activated<float> activate<float>(const Scene &);
 extern template Activated<double> activate<double>(const Scene &);
 

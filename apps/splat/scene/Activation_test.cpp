@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 using namespace vorion::splat;
 using namespace vorion::splat::testing;
@@ -40,6 +41,26 @@ TEST(Activation, ExtremesStayDefined) {
   EXPECT_EQ(A.Opacities, (std::vector<float>{1, 0}));
   EXPECT_EQ(A.Quats[0], 0);
   EXPECT_FLOAT_EQ(A.Quats[4], std::sqrt(0.5F));
+}
+
+TEST(Activation, InfinitiesWithAMeaningAreResolved) {
+  constexpr float Infinity = std::numeric_limits<float>::infinity();
+  Scene S = numberedScene(3, 0);
+  const Scene Before = S;
+  S.OpacityLogits = {Infinity, -Infinity, 2};
+  S.LogScales[4] = -Infinity;
+  S.LogScales[5] = Infinity;
+  S.Means[0] = -Infinity;
+  resolveInfinities(S);
+  const auto A = activate<float>(S);
+  EXPECT_EQ(A.Opacities[0], 1);
+  EXPECT_LT(A.Opacities[1], 1e-12F);
+  EXPECT_EQ(S.OpacityLogits[2], 2);
+  EXPECT_NEAR(A.Scales[4], std::numeric_limits<float>::min(), 1e-43);
+  EXPECT_EQ(S.LogScales[3], Before.LogScales[3]);
+  // These have none.
+  EXPECT_EQ(S.LogScales[5], Infinity);
+  EXPECT_EQ(S.Means[0], -Infinity);
 }
 
 } // namespace

@@ -56,6 +56,8 @@ void changeAxes(Scene &S, const AxesChange &Change) {
   }
   if (Flipped == 0)
     return;
+  for (std::size_t A = 0; A < 3; ++A)
+    S.Origin[A] *= Flip[A];
   // F R F is a rotation for every mirroring F; its axis is that of R times F
   // and F's determinant, so each component gets the other two axes' signs.
   const int Determinant = Flip[0] * Flip[1] * Flip[2];
@@ -63,6 +65,8 @@ void changeAxes(Scene &S, const AxesChange &Change) {
   for (std::size_t I = 0; I < S.size(); ++I) {
     for (std::size_t A = 0; A < 3; ++A) {
       S.Means[3 * I + A] *= static_cast<float>(Flip[A]);
+      if (!S.MeanRests.empty())
+        S.MeanRests[3 * I + A] *= Flip[A];
       S.Quats[4 * I + 1 + A] *= static_cast<float>(Determinant * Flip[A]);
     }
     for (std::size_t K = 1; K < Coefficients; ++K)

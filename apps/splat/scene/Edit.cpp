@@ -1,5 +1,6 @@
 #include "scene/Edit.h"
 
+#include "scene/Axes.h"
 #include "scene/Quaternion.h"
 
 #include <algorithm>
@@ -78,13 +79,13 @@ double dot(const Vec3 &A, const Vec3 &B) {
 }
 
 /// Turns \p Columns among themselves (Jacobi, from one side) until each is at
-/// right angles to the others; gives their lengths. The ellipsoid whose half
-/// axes they are stays the same. A right-handed three stays one.
-Vec3 makeOrthogonal(Mat3 &Columns) {
+/// right angles to the others, and the columns of \p Along in the same way;
+/// gives the lengths of the former. The ellipsoid whose half axes they are
+/// stays the same. A right-handed three stays one.
+Vec3 makeOrthogonal(Mat3 &Columns, Mat3 *Along = nullptr) {
   for (int Round = 0; Round < 12; ++Round)
-    for (const auto &[P, Q] : {std::pair(0, 1), {0, 2}, {1, 2}}) {
-      Vec3 &A = Columns[static_cast<std::size_t>(P)],
-           &B = Columns[static_cast<std::size_t>(Q)];
+    for (const auto &[P, Q] : {std::pair(0U, 1U), {0U, 2U}, {1U, 2U}}) {
+      const Vec3 A = Columns[P], B = Columns[Q];
       const double Off = dot(A, B);
       if (Off == 0 || !std::isfinite(Off))
         continue;
@@ -92,16 +93,95 @@ Vec3 makeOrthogonal(Mat3 &Columns) {
       const double T =
           (Zeta < 0 ? -1 : 1) / (std::abs(Zeta) + std::sqrt(1 + Zeta * Zeta));
       const double C = 1 / std::sqrt(1 + T * T), S = C * T;
-      for (std::size_t K = 0; K < 3; ++K) {
-        const double OldA = A[K];
-        A[K] = C * OldA - S * B[K];
-        B[K] = S * OldA + C * B[K];
-      }
+      for (Mat3 *Turned : {&Columns, Along})
+        for (std::size_t K = 0; Turned && K < 3; ++K) {
+          double &First = (*Turned)[P][K], &Second = (*Turned)[Q][K];
+          const double Old = First;
+          First = C * Old - S * Second;
+          Second = S * Old + C * Second;
+        }
     }
   Vec3 Lengths{};
   for (std::size_t C = 0; C < 3; ++C)
     Lengths[C] = std::sqrt(dot(Columns[C], Columns[C]));
   return Lengths;
+}
+
+Vec3 cross(const Vec3 &A, const Vec3 &B) {
+  return {A[1] * B[2] - A[2] * B[1], A[2] * B[0] - A[0] * B[2],
+          A[0] * B[1] - A[1] * B[0]};
+}
+
+Vec3 scaled(const Vec3 &V, double By) {
+  return {V[0] * By, V[1] * By, V[2] * By};
+}
+
+/// The directions of \p Columns, which makeOrthogonal() left with \p Lengths,
+/// as a right-handed three. The shortest column, and columns that vanish beside
+/// the longest, may have any direction: theirs follow from the others.
+Mat3 directionsOf(const Mat3 &Columns, const Vec3 &Lengths) {
+  const auto Longest = static_cast<std::size_t>(
+      std::ranges::max_element(Lengths) - Lengths.begin());
+  std::size_t Next = (Longest + 1) % 3, Last = (Longest + 2) % 3;
+  if (!(Lengths[Longest] > 0))
+    return Similarity().Rotation;
+  Mat3 D{};
+  D[Longest] = scaled(Columns[Longest], 1 / Lengths[Longest]);
+  const bool Swapped = Lengths[Last] > Lengths[Next];
+  if (Swapped)
+    std::swap(Next, Last);
+  constexpr double Vanishing = 1e-14;
+  if (Lengths[Next] > Vanishing * Lengths[Longest]) {
+    D[Next] = scaled(Columns[Next], 1 / Lengths[Next]);
+  } else {
+    // At right angles to the axis that is farthest from the longest one.
+    const Vec3 &L = D[Longest];
+    Vec3 Axis{};
+    Axis[static_cast<std::size_t>(
+        std::ranges::min_element(L, {}, [](double V) { return std::abs(V); }) -
+        L.begin())] = 1;
+    const Vec3 Across = cross(L, Axis);
+    D[Next] = scaled(Across, 1 / std::sqrt(dot(Across, Across)));
+  }
+  D[Last] = scaled(cross(D[Longest], D[Next]), Swapped ? -1 : 1);
+  return D;
+}
+
+/// A matrix as Rotation, after a mirror at x = 0 if \c Mirrors, after the
+/// symmetric \c Stretch.
+struct Polar {
+  Mat3 Rotation{}, Stretch{};
+  bool Mirrors = false;
+};
+
+Polar polarOf(const Mat3 &Matrix) {
+  Mat3 Columns{}, V = Similarity().Rotation; // columns
+  for (std::size_t R = 0; R < 3; ++R)
+    for (std::size_t C = 0; C < 3; ++C)
+      Columns[C][R] = Matrix[R][C];
+  const Vec3 Lengths = makeOrthogonal(Columns, &V);
+  Mat3 U = directionsOf(Columns, Lengths);
+  Polar P;
+  for (std::size_t C = 0; C < 3; ++C)
+    if (dot(U[C], Columns[C]) < -0.5 * Lengths[C]) {
+      U[C] = scaled(U[C], -1);
+      P.Mirrors = true;
+    }
+  for (std::size_t R = 0; R < 3; ++R)
+    for (std::size_t C = 0; C < 3; ++C)
+      for (std::size_t K = 0; K < 3; ++K) {
+        P.Rotation[R][C] += U[K][R] * V[K][C];
+        P.Stretch[R][C] += V[K][R] * Lengths[K] * V[K][C];
+      }
+  if (P.Mirrors)
+    for (Vec3 &Row : P.Rotation)
+      Row[0] *= -1;
+  // Of decimals, the identity's should stay it.
+  for (Vec3 &Row : P.Rotation)
+    for (double &Value : Row)
+      if (std::abs(Value - std::round(Value)) < 1e-12)
+        Value = std::round(Value);
+  return P;
 }
 
 Quaternion product(const Quaternion &A, const Quaternion &B) {
@@ -165,9 +245,9 @@ void transform(Scene &S, const Similarity &By) {
     Vec3 Moved = By.Translation;
     for (std::size_t A = 0; A < 3; ++A)
       for (std::size_t B = 0; B < 3; ++B)
-        Moved[A] += By.Scale * By.Rotation[A][B] * S.Means[3 * I + B];
+        Moved[A] += By.Scale * By.Rotation[A][B] * S.mean(3 * I + B);
     for (std::size_t A = 0; A < 3; ++A) {
-      S.Means[3 * I + A] = static_cast<float>(Moved[A]);
+      S.setMean(3 * I + A, Moved[A]);
       float &Size = S.LogScales[3 * I + A];
       Size = static_cast<float>(Size + LogScale);
     }
@@ -187,7 +267,8 @@ void transform(Scene &S, const Similarity &By) {
   turnHarmonics(S, By.Rotation);
 }
 
-void stretch(Scene &S, const Vec3 &Factors) {
+/// Transforms \p S by the symmetric matrix \p By, harmonics excepted.
+static void stretch(Scene &S, const Mat3 &By) {
   for (std::size_t I = 0; I < S.size(); ++I) {
     float *Q = &S.Quats[4 * I];
     double Norm = 0;
@@ -195,25 +276,28 @@ void stretch(Scene &S, const Vec3 &Factors) {
       Norm += double(Q[K]) * Q[K];
     const double N = Norm > 0 ? 2 / Norm : 0;
     const double W = Q[0], X = Q[1], Y = Q[2], Z = Q[3];
-    // Columns are half axes: the rotation times the scales, then stretched.
+    // Half axes: the rotation's columns, times the scales, then stretched.
     Mat3 Columns = {
         {{1 - N * (Y * Y + Z * Z), N * (X * Y + W * Z), N * (X * Z - W * Y)},
          {N * (X * Y - W * Z), 1 - N * (X * X + Z * Z), N * (Y * Z + W * X)},
          {N * (X * Z + W * Y), N * (Y * Z - W * X), 1 - N * (X * X + Y * Y)}}};
+    const auto Stretched = [&By](const Vec3 &V) {
+      return Vec3{dot(By[0], V), dot(By[1], V), dot(By[2], V)};
+    };
     for (std::size_t C = 0; C < 3; ++C)
-      for (std::size_t A = 0; A < 3; ++A) {
-        if (C == 0)
-          S.Means[3 * I + A] =
-              static_cast<float>(S.Means[3 * I + A] * Factors[A]);
-        Columns[C][A] *= Factors[A] * std::exp(double(S.LogScales[3 * I + C]));
-      }
+      Columns[C] = scaled(Stretched(Columns[C]),
+                          std::exp(double(S.LogScales[3 * I + C])));
+    const Vec3 Mean =
+        Stretched({S.mean(3 * I), S.mean(3 * I + 1), S.mean(3 * I + 2)});
+    for (std::size_t A = 0; A < 3; ++A)
+      S.setMean(3 * I + A, Mean[A]);
     const Vec3 Lengths = makeOrthogonal(Columns);
-    // Axes that vanish, or are out of range, are left for the finiteness check.
+    const Mat3 Directions = directionsOf(Columns, Lengths);
     Mat3 Rotation{};
     for (std::size_t C = 0; C < 3; ++C) {
       S.LogScales[3 * I + C] = static_cast<float>(std::log(Lengths[C]));
       for (std::size_t A = 0; A < 3; ++A)
-        Rotation[A][C] = Columns[C][A] / Lengths[C];
+        Rotation[A][C] = Directions[C][A];
     }
     const Quaternion New = quaternionOf(Rotation);
     std::ranges::transform(New, Q,
@@ -221,24 +305,20 @@ void stretch(Scene &S, const Vec3 &Factors) {
   }
 }
 
-std::size_t keepOnly(Scene &S, const std::function<bool(std::size_t)> &Keep) {
-  const std::size_t Count = S.size();
-  std::vector<std::size_t> Kept;
-  for (std::size_t I = 0; I < Count; ++I)
-    if (Keep(I))
-      Kept.push_back(I);
-  for (const auto &[Values, Each] : {std::pair(&S.Means, std::size_t{3}),
-                                     {&S.LogScales, 3},
-                                     {&S.Quats, 4},
-                                     {&S.OpacityLogits, 1},
-                                     {&S.Sh, 3 * S.coefficients()}}) {
-    for (std::size_t To = 0; To < Kept.size(); ++To)
-      std::copy_n(
-          Values->begin() + static_cast<std::ptrdiff_t>(Kept[To] * Each), Each,
-          Values->begin() + static_cast<std::ptrdiff_t>(To * Each));
-    Values->resize(Kept.size() * Each);
-  }
-  return Count - Kept.size();
+void deform(Scene &S, const Affine &By) {
+  const Polar P = polarOf(By.Matrix);
+  Similarity Turn{.Rotation = P.Rotation, .Translation = By.Translation};
+  const auto &[X, Y, Z] = P.Stretch;
+  const double Even = X[0];
+  const double Off = std::max({std::abs(Y[1] - Even), std::abs(Z[2] - Even),
+                               std::abs(X[1]), std::abs(X[2]), std::abs(Y[2])});
+  if (Off < 1e-6 * Even)
+    Turn.Scale = Even;
+  else
+    stretch(S, P.Stretch);
+  if (P.Mirrors)
+    changeAxes(S, {.From = {1, 1, 1}, .To = {-1, 1, 1}});
+  transform(S, Turn);
 }
 
 void setShDegree(Scene &S, int Degree) {

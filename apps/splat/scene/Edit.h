@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 
 namespace vorion::splat {
 
@@ -27,17 +26,19 @@ rotationOf(const std::array<double, 3> &Degrees);
 
 /// Transforms \p S: means, scales, rotations, and spherical harmonics, so that
 /// an equally transformed camera has the same view. Computed in double and
-/// rounded once.
+/// rounded once: of means it takes and leaves the rests, too.
 void transform(Scene &S, const Similarity &By);
 
-/// Multiplies lengths along each axis by \p Factors, which are above 0:
-/// Gaussians have the transformed covariance. Spherical harmonics are
-/// unchanged.
-void stretch(Scene &S, const std::array<double, 3> &Factors);
+/// A point p becomes Matrix p + Translation.
+struct Affine {
+  std::array<std::array<double, 3>, 3> Matrix{}; ///< rows, finite
+  std::array<double, 3> Translation{};
+};
 
-/// Keeps the Gaussians whose index satisfies \p Keep, in order; returns the
-/// number of dropped ones.
-std::size_t keepOnly(Scene &S, const std::function<bool(std::size_t)> &Keep);
+/// Transforms \p S: Gaussians have the transformed covariance, even if the
+/// matrix shears, mirrors or flattens. Spherical harmonics follow the matrix's
+/// nearest orthogonal matrix, that of its polar decomposition.
+void deform(Scene &S, const Affine &By);
 
 /// Changes the SH degree; new coefficients are 0.
 void setShDegree(Scene &S, int Degree);

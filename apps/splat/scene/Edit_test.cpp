@@ -1,3 +1,4 @@
+#include "scene/Axes.h"
 #include "scene/Edit.h"
 #include "scene/testing/SceneWriters.h"
 
@@ -56,6 +57,30 @@ double colorOf(const Scene &S, std::size_t I, const Vec3 &D) {
   for (std::size_t K = 0; K < S.coefficients(); ++K)
     Sum += Basis[K] * S.Sh[3 * (S.coefficients() * I + K)];
   return Sum;
+}
+
+/// Far away, where fp32 holds no more than halves.
+TEST(Edit, AMoveBackFromFarAwayIsRoundedOnce) {
+  const Scene Home = randomScene(9, 1, 3);
+  Scene There = Home;
+  transform(There, {2, rotationOf({0, 90, 0}), {412345, 5654321, 120}});
+  EXPECT_NE(There.MeanRests, std::vector<double>());
+  Scene Both = There;
+  join(Both, Home); // which has no rests
+  changeAxes(Both, {.From = {1, 1, 1}, .To = {1, -1, -1}});
+  changeAxes(Both, {.From = {1, -1, -1}, .To = {1, 1, 1}});
+  EXPECT_EQ(keepOnly(Both, [](std::size_t I) { return I % 2 == 0; }), 9U);
+  for (std::size_t I = 0; I < 27; ++I) {
+    const std::size_t From = I / 3 * 2;
+    EXPECT_EQ(Both.mean(I), From < 9
+                                ? There.mean(3 * From + I % 3)
+                                : double{Home.Means[3 * (From - 9) + I % 3]});
+  }
+  transform(There, {.Translation = {-412345, -5654321, -120}});
+  transform(There, {0.5, rotationOf({0, -90, 0}), {}});
+  for (std::size_t I = 0; I < Home.Means.size(); ++I)
+    EXPECT_NEAR(There.Means[I], Home.Means[I],
+                1e-9 + std::abs(Home.Means[I]) * 0x1p-24);
 }
 
 TEST(Edit, AMovedSceneLooksTheSameFromTheMovedPlace) {

@@ -26,19 +26,19 @@ std::vector<uint64_t> placesOf(const Scene &S) {
   // One length for all axes makes cells cubes, and cubes hold near neighbours.
   double Length = 0;
   for (std::size_t A = 0; A < 3; ++A) {
-    float Least = S.Means[A], Most = S.Means[A];
+    double Least = S.mean(A), Most = S.mean(A);
     for (std::size_t I = 0; I < S.size(); ++I) {
-      Least = std::min(Least, S.Means[3 * I + A]);
-      Most = std::max(Most, S.Means[3 * I + A]);
+      Least = std::min(Least, S.mean(3 * I + A));
+      Most = std::max(Most, S.mean(3 * I + A));
     }
     Low[A] = Least;
-    Length = std::max(Length, double(Most) - Least);
+    Length = std::max(Length, Most - Least);
   }
   std::vector<uint64_t> Places(S.size());
   if (Length > 0)
     for (std::size_t I = 0; I < S.size(); ++I)
       for (std::size_t A = 0; A < 3; ++A) {
-        const double T = (double(S.Means[3 * I + A]) - Low[A]) / Length;
+        const double T = (S.mean(3 * I + A) - Low[A]) / Length;
         Places[I] |= spread(static_cast<uint64_t>(T * ((1U << Bits) - 1))) << A;
       }
   return Places;

@@ -1,6 +1,9 @@
 #include "scene/SceneFile.h"
 
+#include "scene/Activation.h"
+#include "scene/Edit.h"
 #include "scene/ForeignFile.h"
+#include "scene/UpDirection.h"
 #include "scene/formats/Formats.h"
 #include "scene/formats/Gltf.h"
 #include "scene/formats/SogFolder.h"
@@ -27,6 +30,10 @@ Expected<SceneFile> checked(const std::string &Where, Expected<SceneFile> Read,
                  ExitCode::Usage};
   if (Read->Gaussians.size() == 0)
     return Error{Where, "no Gaussians, expected at least one"};
+  limitShDegree(Read->Gaussians, Read->ReducedFrom);
+  resolveInfinities(Read->Gaussians);
+  if (!Read->Up)
+    Read->Up = upOfAxes(recordOf(Read->Format).Axes);
   if (Options.DropNonFinite) {
     Read->Dropped = dropNonFinite(Read->Gaussians);
     if (Read->Gaussians.size() == 0)
@@ -63,6 +70,13 @@ std::span<const SceneFormatRecord> sceneFormats() {
 #include "scene/formats/Formats.def"
   };
   return All;
+}
+
+void limitShDegree(Scene &S, int &ReducedFrom) {
+  if (S.ShDegree <= MaxShDegree)
+    return;
+  ReducedFrom = S.ShDegree;
+  setShDegree(S, MaxShDegree);
 }
 
 Expected<SceneFile> parseScene(const std::string &Where, Bytes File,

@@ -7,7 +7,9 @@
 #include "scene/Scene.h"
 #include "vorion/support/Expected.h"
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,8 +55,16 @@ struct SceneFile {
   /// Ignored properties of a PLY that are not known to affect the picture;
   /// those that do are errors (Unsupported.h).
   std::vector<std::string> Skipped;
+  /// Primitives of a glTF file without Gaussians, which mesh/Mesh.h reads.
+  std::size_t Meshes = 0;
+  /// The file's SH degree if it exceeds \c MaxShDegree, to which the scene is
+  /// then reduced; otherwise 0.
+  int ReducedFrom = 0;
   /// Number of Gaussians dropped because of a NaN or an infinity.
   std::size_t Dropped = 0;
+  /// The direction that is up in the scene's coordinates, or nearly so, if the
+  /// format's documented axes or a comment of a PLY state one; a unit vector.
+  std::optional<std::array<double, 3>> Up = std::nullopt;
 };
 
 /// Options of readers.
@@ -75,5 +85,9 @@ Expected<SceneFile> readScene(const std::string &Path,
 /// The same for the content of a self-contained file (no folder).
 Expected<SceneFile> parseScene(const std::string &Where, Bytes File,
                                const ReadOptions &Options = {});
+
+/// Reduces \p S, as a reader made it, to \c MaxShDegree, and then sets
+/// \p ReducedFrom.
+void limitShDegree(Scene &S, int &ReducedFrom);
 
 } // namespace vorion::splat

@@ -1,7 +1,10 @@
 #include "io/TestFiles.h"
+#include "scene/Edit.h"
 #include "scene/SceneFile.h"
 #include "scene/formats/Ply.h"
+#include "scene/testing/Compare.h"
 #include "scene/testing/Damage.h"
+#include "scene/testing/SceneWriters.h"
 
 #include <algorithm>
 #include <cstring>
@@ -90,7 +93,9 @@ TEST(SceneFile, GaussiansThatAreNotFiniteAreDroppedOnRequestAndCounted) {
                                     &Bad.OpacityLogits, &Bad.Sh};
     std::vector<float> &V = *Fields[Field];
     V[V.size() / 5] = NaN; // the first of Gaussian 1
-    V.back() = -std::numeric_limits<float>::infinity();
+    V.back() = std::numeric_limits<float>::infinity();
+    if (&V == &Bad.OpacityLogits) // opaque
+      V.back() = NaN;
     const std::string Path = Root.write("s.ply", formatPly(Bad));
     EXPECT_FALSE(readScene(Path));
     const auto Read = readScene(Path, {.DropNonFinite = true, .Drawn = {}});
@@ -135,17 +140,17 @@ TEST(SceneFile, SplatAndSogDropToo) {
   ASSERT_TRUE(ReadSplat) << ReadSplat.error().What;
   EXPECT_EQ(ReadSplat->Dropped, 2U);
 
-  // Older writers of SOG left null where a codebook began with a NaN.
+  // Writers of SOG leave null where a codebook has a NaN.
   Folder Files = sogOf(S);
   nlohmann::json Meta = nlohmann::json::parse(Files["meta.json"]);
-  Meta["scales"]["codebook"][0] = nullptr;
+  Meta["scales"]["codebook"][255] = nullptr;
   Files["meta.json"] = Meta.dump();
   const std::string Sog = zipOf(Files);
   EXPECT_FALSE(parseScene("s", std::as_bytes(std::span(Sog))));
   const auto ReadSog = parseScene("s", std::as_bytes(std::span(Sog)),
                                   {.DropNonFinite = true, .Drawn = {}});
   ASSERT_TRUE(ReadSog) << ReadSog.error().What;
-  // The writer's first step is the least scale, which one Gaussian has.
+  // The writer's last step is the largest scale, which one Gaussian has.
   EXPECT_EQ(ReadSog->Dropped, 1U);
   EXPECT_EQ(ReadSog->Gaussians.size(), 4U);
 }
@@ -155,6 +160,51 @@ TEST(SceneFile, WhatNeverEndsIsAnError) {
   ASSERT_FALSE(Read);
   EXPECT_EQ(Read.error().Where, "/dev/zero");
   EXPECT_EQ(Read.error().Code, ExitCode::InputFile);
+}
+
+TEST(SceneFile, HarmonicsOfDegreeFourAreReducedToThree) {
+  const Scene Four = randomScene(20, 4, 3);
+  Scene Three = Four;
+  setShDegree(Three, 3);
+  const auto FilesOf = [](const Scene &S) -> std::vector<std::string> {
+    return {formatPly(S),
+            compressedPlyOf(S),
+            gzipOf(spzBodyOf(S, 3)),
+            zipOf(sogOf(S)),
+            glbOf(gltfOf(S)),
+            glbOf(gltfOfSpz(gzipOf(spzBodyOf(S, 2))))};
+  };
+  const auto Files = FilesOf(Four), Expected = FilesOf(Three);
+  for (std::size_t I = 0; I < Files.size(); ++I) {
+    const auto Read = parseScene("s", std::as_bytes(std::span(Files[I])));
+    const auto Wanted = parseScene("s", std::as_bytes(std::span(Expected[I])));
+    ASSERT_TRUE(Read) << Read.error().What;
+    ASSERT_TRUE(Wanted) << Wanted.error().What;
+    EXPECT_EQ(Read->ReducedFrom, 4);
+    EXPECT_EQ(Wanted->ReducedFrom, 0);
+    EXPECT_EQ(Read->Gaussians.Means, Wanted->Gaussians.Means);
+    EXPECT_LE(differencesOf(Read->Gaussians, Wanted->Gaussians).Harmonics,
+              0.03);
+  }
+}
+
+TEST(SceneFile, InfinitiesWithAMeaningAreRead) {
+  constexpr float Infinity = std::numeric_limits<float>::infinity();
+  Scene S = randomScene(4, 0, 3);
+  S.OpacityLogits[0] = Infinity;
+  S.OpacityLogits[1] = -Infinity;
+  S.LogScales[6] = -Infinity;
+  S.LogScales[9] = Infinity;
+  const std::string File = formatPly(S);
+  const auto Refused = parseScene("s", std::as_bytes(std::span(File)));
+  ASSERT_FALSE(Refused);
+  EXPECT_NE(Refused.error().What.find("Gaussian 3"), std::string::npos);
+  ReadOptions Drop;
+  Drop.DropNonFinite = true;
+  const auto Read = parseScene("s", std::as_bytes(std::span(File)), Drop);
+  ASSERT_TRUE(Read) << Read.error().What;
+  EXPECT_EQ(Read->Dropped, 1U);
+  EXPECT_EQ(Read->Gaussians.size(), 3U);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "scene/Edit.h"
 #include "scene/MortonOrder.h"
 #include "scene/SceneFile.h"
+#include "scene/formats/GltfWriter.h"
 #include "scene/formats/Ply.h"
 #include "scene/formats/Sog.h"
 #include "scene/formats/Writers.h"
@@ -25,7 +26,7 @@ namespace {
 struct Writer {
   std::string_view Ending;
   bool InMortonOrder;
-  /// Null for a SOG's folder, which is several files.
+  /// Null for a SOG's folder, which is several files, and for glTF.
   Expected<std::string> (*Format)(const Scene &S, const Drawing &D);
 };
 
@@ -38,6 +39,8 @@ Expected<std::string> spzOf(const Scene &S, const Drawing &D) {
 
 /// Of a SOG's folder, beside whose pictures it lies.
 constexpr std::string_view SogIndex = "meta.json";
+
+constexpr std::string_view Glb = ".glb";
 
 constexpr std::size_t InriasPly = 1;
 const Writer Writers[] = {
@@ -56,7 +59,17 @@ const Writer Writers[] = {
     {".spz", false, spzOf},
     // Neighbours in space are neighbours in the pictures.
     {".sog", true, sogArchiveOf},
+    {Glb, false, nullptr},
     {SogIndex, true, nullptr}};
+
+Expected<std::string> glbOf(const Scene &S,
+                            const std::function<void(GltfWriter &)> &AddMore) {
+  GltfWriter W;
+  W.addGaussians(S);
+  if (AddMore)
+    AddMore(W);
+  return W.finish();
+}
 
 const Writer &writerOf(std::string_view Path) {
   const auto *Found = std::ranges::find_if(
@@ -141,7 +154,8 @@ byName(const SceneDifference &D) {
 
 SceneDifference differenceOf(const Scene &A, const Scene &B) {
   SceneDifference D;
-  D.Position = largestDifference(A.Means, B.Means);
+  for (std::size_t I = 0; I < A.Means.size(); ++I)
+    D.Position = std::max(D.Position, std::abs(A.mean(I) - B.mean(I)));
   D.LogScale = largestDifference(A.LogScales, B.LogScales);
   auto X = activate<double>(A), Y = activate<double>(B);
   for (std::size_t I = 0; I < A.size(); ++I) {
@@ -167,8 +181,9 @@ SceneDifference differenceOf(const Scene &A, const Scene &B) {
   return D;
 }
 
-Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
-                                  const Drawing &D) {
+Expected<WrittenScene>
+writeScene(const std::string &Path, const Scene &S, const Drawing &D,
+           const std::function<void(GltfWriter &)> &AddMore) {
   const Writer &W = writerOf(Path);
   Scene Ordered;
   if (W.InMortonOrder) {
@@ -176,9 +191,10 @@ Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
     putInMortonOrder(Ordered);
   }
   const Scene &Given = W.InMortonOrder ? Ordered : S;
-  if (!W.Format)
+  if (W.Ending == SogIndex)
     return writeSogFolder(Path, Given, D);
-  const auto File = W.Format(Given, D);
+  const auto File =
+      W.Ending == Glb ? glbOf(Given, AddMore) : W.Format(Given, D);
   if (!File)
     return Error{Path, File.error().What, File.error().Code};
   auto Read = parseScene(Path, std::as_bytes(std::span(*File)));

@@ -5,6 +5,7 @@
 #include "scene/Scene.h"
 #include "vorion/support/Expected.h"
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,11 +41,15 @@ struct WrittenScene {
   bool KeepsDrawing = true; ///< whether it says how the scene is drawn
 };
 
+class GltfWriter;
+
 /// Writes \p S with the rendering mode \p D in the format of \p Path's
 /// extension, or as INRIA's PLY if it is none of writtenEndings(), and reads it
 /// back. Writing is atomic; for the folder of a SOG as in writeFilesTogether().
-/// Compressed PLYs have the Gaussians in Morton order.
-Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
-                                  const Drawing &D);
+/// Compressed PLYs have the Gaussians in Morton order. \p AddMore adds what
+/// else a `.glb` has.
+Expected<WrittenScene>
+writeScene(const std::string &Path, const Scene &S, const Drawing &D,
+           const std::function<void(GltfWriter &)> &AddMore = {});
 
 } // namespace vorion::splat

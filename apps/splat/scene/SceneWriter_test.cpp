@@ -46,6 +46,7 @@ TEST(SceneWriter, EachFormatIsReadAsItselfWithinItsSteps) {
        SceneFormat::Spz,
        {0.5 / 4096 + 1e-6, 0.5 / 16 + 1e-6, 0.0021, 0.5 / 255 + 1e-6,
         0.5 / 255 / 0.15 + 1e-6, 8.5 / 128 + 1e-6}},
+      {".glb", SceneFormat::Gltf, {0, 1e-6, 1e-6, 1e-7, 0, 0}},
       // Even steps of a byte would be within half of a 255th: the codebooks'
       // are nearer where values crowd and may be farther where they do not.
       {".sog",
@@ -160,6 +161,10 @@ TEST(SceneWriter, ExtremeValuesAreCutToWhatTheFormatHas) {
   S.Quats = {0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1e-12F};
   S.Sh[0] = 100;
   S.Sh[5] = -100;
+  const auto Lossless = writeScene(Folder.path("a.glb"), S, Drawing());
+  ASSERT_TRUE(Lossless) << Lossless.error().What;
+  EXPECT_LE(Lossless->Lost.LogScale, 1e-5);
+  EXPECT_EQ(Lossless->Lost.Harmonics, 0);
   for (const char *Name : {"a.compressed.ply", "a.splat", "a.spz"}) {
     const auto W = writeScene(Folder.path(Name), S, Drawing());
     ASSERT_TRUE(W) << Name << W.error().What;

@@ -42,7 +42,7 @@ SceneStatistics statisticsOf(const Scene &S) {
   std::vector<double> Values(Count);
   for (std::size_t A = 0; A < 3; ++A) {
     for (std::size_t I = 0; I < Count; ++I)
-      Values[I] = S.Means[3 * I + A];
+      Values[I] = S.mean(3 * I + A);
     constexpr double Strays = 0.01;
     R.InnerLow[A] = quantile(Values, Strays);
     R.InnerHigh[A] = quantile(Values, 1 - Strays);

@@ -1,6 +1,7 @@
 #include "study/Process.h"
 
 #include "study/PointStore.h"
+#include "vorion/support/Environment.h"
 #include "vorion/support/File.h"
 
 #include <cerrno>
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>
+#include <sstream>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>
@@ -29,6 +31,21 @@ std::string lastLine(const std::string &File) {
   while (!Text.empty() && Text.back() == '\n')
     Text.pop_back();
   return Text.substr(Text.rfind('\n') + 1);
+}
+
+Expected<std::string> findProgram(const std::string &Name,
+                                  std::string_view What) {
+  const char *Path = environmentVariable("PATH");
+  std::istringstream Folders(Path ? Path : "");
+  for (std::string Folder; std::getline(Folders, Folder, ':');) {
+    const std::string File =
+        (std::filesystem::path(Folder.empty() ? "." : Folder) / Name).string();
+    if (access(File.c_str(), X_OK) == 0 && !std::filesystem::is_directory(File))
+      return File;
+  }
+  return Error{"", fmt::format("{0}: not found in PATH, expected the program "
+                               "that {1} (Debian: apt install {0})",
+                               Name, What)};
 }
 
 /// As exec() wants them.

@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vorion::splat {
@@ -22,6 +23,11 @@ struct ProcessEnd {
 
 /// The last line of \p File, a log; empty if it cannot be read.
 std::string lastLine(const std::string &File);
+
+/// The path of the program \p Name that PATH has, which is Debian's package of
+/// the same name. \p What it is for is in the error if there is none.
+Expected<std::string> findProgram(const std::string &Name,
+                                  std::string_view What);
 
 /// Runs the command \p Words, whose first element is the path of a program,
 /// with this process's environment and \p Variables. Standard output goes to \p

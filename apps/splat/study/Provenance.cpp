@@ -96,7 +96,7 @@ Expected<std::string> hashCapture(const Capture &C) {
       return Mask;
     All += *Mask + ";";
   }
-  append(All, C.Points.Positions);
+  append(All, C.Points.local());
   append(All, C.Points.Colours);
   return fnv1a64(All);
 }

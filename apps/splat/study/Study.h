@@ -27,6 +27,7 @@ struct StudyPoint {
 /// The options that all studies have.
 struct StudyOptions {
   std::string Folder;            ///< of the measurements and the page
+  std::string Figures;           ///< folder of the page's; empty for none
   unsigned Jobs = 1;             ///< number of points measured in parallel
   bool List = false;             ///< only print the names of the missing points
   std::vector<std::string> Only; ///< names of points, as List prints them

@@ -393,6 +393,12 @@ void HttpServer::serve(const std::function<void()> &Announce,
   All->Workers.join();
 }
 
+void HttpServer::serveUntilStopped() {
+  All->accept();
+  All->Io.run();
+  All->Workers.join();
+}
+
 void HttpServer::stop() { All->Io.stop(); }
 
 } // namespace vorion::splat

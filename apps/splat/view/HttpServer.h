@@ -90,6 +90,9 @@ public:
   void serve(const std::function<void()> &Announce,
              const std::function<void()> &OnEnd);
 
+  /// Serves until stop(), and leaves signals alone.
+  void serveUntilStopped();
+
   /// May be called on any thread.
   void stop();
 

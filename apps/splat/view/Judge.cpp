@@ -1,6 +1,7 @@
 #include "view/Judge.h"
 
 #include "analyze/ToReference.h"
+#include "io/LocalFrame.h"
 #include "reference/Pixel.h"
 #include "reference/Render.h"
 
@@ -33,6 +34,13 @@ uint64_t tilesOf(const reference::Splat<double> &S, const reference::Options &O,
          static_cast<uint64_t>(R.Y1 - R.Y0);
 }
 
+/// \p View in the frame of \p S.
+template <typename Real>
+reference::Camera<Real> referenceCamera(const ShownScene &S,
+                                        const Camera &View) {
+  return toReference<Real>(relativeTo(View, S.File.Gaussians.Origin));
+}
+
 } // namespace
 
 template <typename Real>
@@ -58,9 +66,10 @@ Judge::picture(const std::shared_ptr<const ShownScene> &S, const Camera &View,
     return Last.Picture;
   if (GiveUp())
     return superseded();
-  const auto Drawn =
-      reference::render(activated<double>(*S), toReference<double>(View),
-                        toReference(S->File.DrawnAs));
+  reference::Options O = toReference(S->File.DrawnAs);
+  O.Near = double{S->Near.value_or(0)};
+  const auto Drawn = reference::render(activated<double>(*S),
+                                       referenceCamera<double>(*S, View), O);
   auto Picture = std::make_shared<std::vector<double>>();
   Picture->reserve(3 * Drawn.Render.size());
   for (const auto &Pixel : Drawn.Render)
@@ -72,7 +81,7 @@ Judge::picture(const std::shared_ptr<const ShownScene> &S, const Camera &View,
 std::vector<PixelGaussian>
 Judge::pixel(const std::shared_ptr<const ShownScene> &S, const ViewRequest &R) {
   const std::lock_guard Held(Lock);
-  const RenderOptions Chosen = optionsOf(R, S->File.DrawnAs);
+  const RenderOptions Chosen = optionsOf(R, *S);
   reference::Options O = toReference(Chosen);
   O.TileSize = static_cast<int>(Chosen.RasterTile);
   const auto Found =
@@ -81,9 +90,9 @@ Judge::pixel(const std::shared_ptr<const ShownScene> &S, const ViewRequest &R) {
                                        R.X, R.Y);
       };
   const auto Exact =
-      project(activated<double>(*S), toReference<double>(R.View), O);
+      project(activated<double>(*S), referenceCamera<double>(*S, R.View), O);
   const auto Rounded =
-      project(activated<float>(*S), toReference<float>(R.View), O);
+      project(activated<float>(*S), referenceCamera<float>(*S, R.View), O);
   std::unordered_map<int32_t, float> RoundedWeights;
   for (const auto &C : Found(Rounded))
     RoundedWeights[C.Index] = C.Weight;

@@ -50,16 +50,16 @@ Painted paintDepth(const DepthMap &D) {
 }
 
 Painted paintError(const Image &I, const std::vector<double> &Reference) {
-  Painted P{"", 0, 0, "of a channel's range"};
+  Painted P{"", 1e-8, 1, "of a channel's range", true};
   std::vector<double> Errors(I.pixels());
   for (std::size_t Value = 0; Value != Reference.size(); ++Value) {
     double &Error = Errors[Value / 3];
     Error = std::max(Error, std::abs(I.Render[Value] - Reference[Value]));
-    P.High = std::max(P.High, Error);
   }
   P.Rgba.reserve(4 * I.pixels());
   for (const double Error : Errors)
-    append(P.Rgba, heatColour(P.High > 0 ? Error / P.High : 0));
+    append(P.Rgba,
+           heatColour(1 - std::log(std::max(Error, P.Low)) / std::log(P.Low)));
   return P;
 }
 

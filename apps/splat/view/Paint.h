@@ -16,6 +16,7 @@ struct Painted {
   std::string Rgba;
   double Low = 0, High = 0;
   std::string Unit; ///< empty for the picture itself
+  bool IsLogarithmic = false;
 };
 
 Painted paintPicture(const Image &I);
@@ -23,7 +24,8 @@ Painted paintPicture(const Image &I);
 /// pixels.
 Painted paintDepth(const DepthMap &D);
 /// The largest difference of a channel from \p Reference, which has 3 values
-/// per pixel.
+/// per pixel, on a logarithmic scale from 1e-8, where rounding in fp32 ends, to
+/// 1: the same for all pictures, so that they can be compared.
 Painted paintError(const Image &I, const std::vector<double> &Reference);
 Painted paintHeat(const std::vector<TileWork> &Tiles, Heat H, int Width,
                   int Height);

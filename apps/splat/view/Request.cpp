@@ -54,7 +54,48 @@ Expected<int> sideOf(const Json &Of, const char *Key) {
   return static_cast<int>(*Side);
 }
 
-Expected<Camera> cameraOf(const Json &Of) {
+} // namespace
+
+nlohmann::ordered_json cameraJson(const Camera &C) {
+  return {{"name", C.Name},
+          {"width", C.Width},
+          {"height", C.Height},
+          {"position", C.Position},
+          {"rotation", C.Rotation},
+          {"fx", C.Fx},
+          {"fy", C.Fy},
+          {"cx", C.Cx},
+          {"cy", C.Cy},
+          {"lens", lensJson(C.Optics)},
+          // A sphere has no picture without its lens, and parallel rays have no
+          // focal length.
+          {"lens_is_a_choice", !C.Optics.Model->Keys.empty()}};
+}
+
+Expected<Camera> movedCamera(Camera C, const Json &Of) {
+  if (Of.contains("position")) {
+    const auto Position = threeOf(Of["position"]);
+    if (!Position)
+      return wrong("position", "three numbers");
+    C.Position = *Position;
+  }
+  if (!Of.contains("rotation"))
+    return C;
+  const Json &Rows = Of["rotation"];
+  if (!Rows.is_array() || Rows.size() != C.Rotation.size())
+    return wrong("rotation", "three rows");
+  for (std::size_t Row = 0; Row != C.Rotation.size(); ++Row) {
+    const auto Three = threeOf(Rows[Row]);
+    if (!Three)
+      return wrong("rotation", "rows of three numbers");
+    C.Rotation[Row] = *Three;
+  }
+  if (!isRotation(C.Rotation))
+    return wrong("rotation", "a rotation");
+  return C;
+}
+
+Expected<Camera> parsePageCamera(const Json &Of) {
   if (!Of.is_object())
     return wrong("camera", "an object");
   Camera C;
@@ -76,21 +117,13 @@ Expected<Camera> cameraOf(const Json &Of) {
     return wrong("lens", "an object");
   C.Cx = numberOf(Of, "cx").value_or(C.Width / 2.0);
   C.Cy = numberOf(Of, "cy").value_or(C.Height / 2.0);
-  const auto Position = threeOf(Of.value("position", Json()));
-  if (!Position)
-    return wrong("position", "three numbers");
-  C.Position = *Position;
-  const Json Rows = Of.value("rotation", Json());
-  if (!Rows.is_array() || Rows.size() != C.Rotation.size())
-    return wrong("rotation", "three rows");
-  for (std::size_t Row = 0; Row != C.Rotation.size(); ++Row) {
-    const auto Three = threeOf(Rows[Row]);
-    if (!Three)
-      return wrong("rotation", "rows of three numbers");
-    C.Rotation[Row] = *Three;
-  }
-  if (!isRotation(C.Rotation))
-    return wrong("rotation", "a rotation");
+  for (const char *Key : {"position", "rotation"})
+    if (!Of.contains(Key))
+      return wrong(Key, "an array");
+  auto Placed = movedCamera(std::move(C), Of);
+  if (!Placed)
+    return Placed;
+  C = std::move(*Placed);
   // As cameras.json has it; a sphere's focal lengths follow from the size.
   if (Lens.is_object()) {
     const auto Read = readLens([&](const char *Key) {
@@ -106,8 +139,6 @@ Expected<Camera> cameraOf(const Json &Of) {
   }
   return C;
 }
-
-} // namespace
 
 std::string_view name(Layer L) {
   return LayerNames[static_cast<std::size_t>(L)];
@@ -129,7 +160,7 @@ Expected<ViewRequest> parseViewRequest(std::string_view Text) {
   if (!Read->is_object())
     return wrong("camera", "an object with it");
   ViewRequest R;
-  const auto View = cameraOf(Read->value("camera", Json()));
+  const auto View = parsePageCamera(Read->value("camera", Json()));
   if (!View)
     return View.error();
   R.View = *View;
@@ -167,13 +198,14 @@ Error superseded() {
 
 bool isSuperseded(const Error &E) { return E.What == superseded().What; }
 
-RenderOptions optionsOf(const ViewRequest &R, const Drawing &D) {
+RenderOptions optionsOf(const ViewRequest &R, const ShownScene &Of) {
   const Setting &S = R.Chosen;
   const auto Number = [&](KnobId Id) {
     return static_cast<unsigned>(std::stoul(S.value(Id)));
   };
   RenderOptions O;
-  drawAs(O, D);
+  drawAs(O, Of.File.DrawnAs);
+  O.Near = Of.Near;
   O.Optics = R.View.Optics.Model;
   O.Exponential = S.exponential();
   O.Arithmetic = S.arithmetic();

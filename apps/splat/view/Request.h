@@ -5,10 +5,12 @@
 #include "io/Cameras.h"
 #include "picture/HeatMap.h"
 #include "picture/Options.h"
+#include "view/ShownScene.h"
 #include "vorion/support/Expected.h"
 
 #include <array>
 #include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +52,16 @@ struct ViewRequest {
   /// @}
 };
 
+/// \p C as the page has it; the lens as in cameras.json, and whether the page
+/// may leave it away.
+nlohmann::ordered_json cameraJson(const Camera &C);
+
+/// \p C with the position and rotation of \p Of, where it has them.
+Expected<Camera> movedCamera(Camera C, const nlohmann::json &Of);
+
+/// The camera of a request; errors name the key.
+Expected<Camera> parsePageCamera(const nlohmann::json &Of);
+
 /// Parses JSON; errors name the key.
 Expected<ViewRequest> parseViewRequest(std::string_view Text);
 
@@ -58,7 +70,7 @@ Error superseded();
 /// Whether \p E is such an error.
 bool isSuperseded(const Error &E);
 
-/// The options of \p R for a scene whose file specifies \p D.
-RenderOptions optionsOf(const ViewRequest &R, const Drawing &D);
+/// The options of \p R for the scene \p Of.
+RenderOptions optionsOf(const ViewRequest &R, const ShownScene &Of);
 
 } // namespace vorion::splat

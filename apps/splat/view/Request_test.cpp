@@ -113,8 +113,12 @@ TEST(ViewRequest, EveryKnobReachesTheOptions) {
 }
 
 TEST(ViewRequest, DrawsAsTheSceneSays) {
-  EXPECT_TRUE(optionsOf({}, {true, 0.1, ""}).Antialiased);
-  EXPECT_EQ(optionsOf({}, {true, 0.1, ""}).Dilation, 0.1F);
+  ShownScene S;
+  S.File.DrawnAs = {true, 0.1, ""};
+  S.Near = 0.02F;
+  EXPECT_TRUE(optionsOf({}, S).Antialiased);
+  EXPECT_EQ(optionsOf({}, S).Dilation, 0.1F);
+  EXPECT_EQ(optionsOf({}, S).nearLimit(), 0.02F);
 }
 
 } // namespace

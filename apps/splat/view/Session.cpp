@@ -5,16 +5,21 @@
 #include "effects/Registry.h"
 #include "io/CameraLens.h"
 #include "io/Metrics.h"
+#include "picture/SceneUnit.h"
 #include "render/Explain.h"
 #include "render/Pictures.h"
+#include "scene/SceneWriter.h"
 #include "scene/Statistics.h"
 #include "view/Paint.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <span>
 #include <utility>
 
@@ -27,24 +32,6 @@ namespace {
 /// Pictures that are kept: two settings of one view with and without what takes
 /// longer.
 constexpr std::size_t MostKept = 4;
-
-/// Whether a camera of \p M has a picture without its lens, too: a sphere has
-/// none, and parallel rays have no focal length.
-bool bends(const LensModel &M) { return !M.Keys.empty(); }
-
-Json cameraJson(const Camera &C) {
-  return {{"name", C.Name},
-          {"width", C.Width},
-          {"height", C.Height},
-          {"position", C.Position},
-          {"rotation", C.Rotation},
-          {"fx", C.Fx},
-          {"fy", C.Fy},
-          {"cx", C.Cx},
-          {"cy", C.Cy},
-          {"lens", lensJson(C.Optics)},
-          {"lens_is_a_choice", bends(*C.Optics.Model)}};
-}
 
 /// Which bands of spherical harmonics are on the device.
 std::array<bool, MaxShDegree> bandsOf(const EffectPlan &Plan) {
@@ -86,6 +73,44 @@ Json timeOf(const MachineTime &T) {
           {"cycles", T.Cycles},
           {"machine_ms", T.Milliseconds},
           {"stage_cycles", std::move(Stages)}};
+}
+
+/// The point of the scene that the pixel of \p R shows, by its weighted mean
+/// depth; null where nothing is.
+Json pointOf(const DepthMap &D, const ViewRequest &R) {
+  const Camera &C = R.View;
+  const auto At = static_cast<std::size_t>(R.Y) * C.Width + R.X;
+  const double U = (R.X + 0.5 - C.Cx) / C.Fx, V = (R.Y + 0.5 - C.Cy) / C.Fy;
+  const LensModel &Lens = *C.Optics.Model;
+  const auto Ray =
+      Lens.IsParallel ? Direction{0, 0, 1} : C.Optics.direction(U, V);
+  constexpr float LeastAlpha = 1.0F / 255;
+  if (!Ray || D.Alpha[At] < LeastAlpha)
+    return nullptr;
+  const double Depth = double(D.Depth[At]) / double(D.Alpha[At]);
+  const double Along = Lens.byDistance() ? Depth : Depth / (*Ray)[2];
+  const Vector Start = Lens.IsParallel ? Vector{U, V, 0} : Vector{};
+  Vector Point = C.Position;
+  for (std::size_t Row = 0; Row != 3; ++Row)
+    for (std::size_t K = 0; K != 3; ++K)
+      Point[Row] += C.Rotation[Row][K] * (Start[K] + Along * (*Ray)[K]);
+  return Point;
+}
+
+/// \p Word as a shell has it.
+std::string shellWord(const std::string &Word) {
+  const bool IsPlain =
+      !Word.empty() && std::ranges::all_of(Word, [](unsigned char C) {
+        return std::isalnum(C) != 0 ||
+               std::string_view("-_./:,=+@").find(static_cast<char>(C)) !=
+                   std::string_view::npos;
+      });
+  if (IsPlain)
+    return Word;
+  std::string Quoted = "'";
+  for (const char C : Word)
+    Quoted += C == '\'' ? "'\\''" : std::string(1, C);
+  return Quoted + "'";
 }
 
 /// The figures of \p Picture beside \p Reference.
@@ -157,12 +182,126 @@ Expected<Success> Session::replace(std::string Name,
   const std::string Path = Clock.sceneFile(scene()->Number + 1);
   if (auto Written = writeFileAtomically(Path, Content); !Written)
     return Written;
-  const std::string Before = Clock.sceneFile(scene()->Number);
-  const Vector Up = focusOf(File->Gaussians).Up;
-  show({std::move(Name), Path, Settings.ReadingWords, std::move(*File), Up});
-  std::error_code Ignored; // there is none of the first scene
-  std::filesystem::remove(Before, Ignored);
+  const SceneFocus Focus = focusOf(*File);
+  const auto [Width, Height] = Settings.Size.value_or(std::pair(960, 544));
+  Camera Found =
+      goodView(File->Gaussians, Focus, Width, Height, nearLimit(Rules::Inria));
+  std::optional<float> Near;
+  prepareToDraw(File->Gaussians, {Found}, Rules::Inria, Near);
+  Opened = nullptr;
+  change({.Name = std::move(Name),
+          .Path = Path,
+          .Words = Settings.ReadingWords,
+          .IsTemporary = true,
+          .File = std::move(*File),
+          .Up = Focus.Up,
+          .Found = std::move(Found),
+          .Near = Near});
   return Success{};
+}
+
+/// Shows \p Next, and removes the file of the scene before.
+void Session::change(ShownScene Next) {
+  const auto Before = scene();
+  show(std::move(Next));
+  std::error_code Ignored; // it may be needed by nobody yet
+  if (Before->IsTemporary)
+    std::filesystem::remove(Before->Path, Ignored);
+}
+
+Expected<Success> Session::edit(const PickedRequest &R) {
+  const std::lock_guard Held(ReplaceLock);
+  const auto Usage = [](const char *What) {
+    return Error{"", What, ExitCode::Usage};
+  };
+  const auto S = scene();
+  if (R.Scene != S->Number)
+    return Usage("another page has changed the scene, expected its number");
+  if (R.Do == EditKind::Undo) {
+    if (!Opened)
+      return Usage("nothing is to be undone, expected an edit");
+    for (unsigned &By : RemovedBy)
+      By = By == Edits ? 0 : By;
+    --Edits;
+  } else {
+    const Selection Of = selected(S->File.Gaussians, R.Parts);
+    const auto Count = static_cast<std::size_t>(std::ranges::count(Of, true));
+    const bool IfSelected = R.Do == EditKind::Delete;
+    if (Count == 0)
+      return Usage("no Gaussian is selected");
+    if (Count == Of.size() && !IfSelected)
+      return Usage(
+          "all Gaussians are selected, which leaves nothing to remove");
+    if (Count == Of.size())
+      return Usage("all Gaussians are selected, expected at least one to "
+                   "remain");
+    if (!Opened) {
+      Opened = S;
+      RemovedBy.assign(Of.size(), 0);
+      Edits = 0;
+    }
+    ++Edits;
+    std::size_t At = 0;
+    for (unsigned &By : RemovedBy)
+      if (By == 0 && Of[At++] == IfSelected)
+        By = Edits;
+  }
+  if (Edits == 0) {
+    ShownScene Next = *std::exchange(Opened, nullptr);
+    change(std::move(Next));
+    return Success{};
+  }
+  ShownScene Next = *Opened;
+  keepOnly(Next.File.Gaussians,
+           [this](std::size_t I) { return RemovedBy[I] == 0; });
+  // The file that is written, if it is needed, says how it is drawn.
+  Next.Path = Clock.sceneFile(S->Number + 1);
+  Next.Words.clear();
+  Next.IsTemporary = true;
+  Next.Edits = Edits;
+  change(std::move(Next));
+  return Success{};
+}
+
+Expected<ViewAnswer> Session::selection(const PickedRequest &R) const {
+  /// Points on a page that a browser draws at once.
+  constexpr std::size_t MostPlaces = 20000;
+  const auto S = scene();
+  const Selection Of = selected(S->File.Gaussians, R.Parts);
+  ViewAnswer A{{{"scene", S->Number},
+                {"selected", std::ranges::count(Of, true)},
+                {"gaussians", Of.size()}},
+               ""};
+  if (!R.View)
+    return A;
+  const auto Places = placesOf(S->File.Gaussians, Of, *R.View, MostPlaces);
+  A.Rgba.assign(reinterpret_cast<const char *>(Places.data()),
+                Places.size() * sizeof(Places[0]));
+  return A;
+}
+
+Expected<std::string> Session::saved(const std::string &Name) {
+  if (std::ranges::none_of(writtenEndings(), [&](std::string_view Ending) {
+        return Name.ends_with(Ending);
+      }))
+    return Error{"",
+                 fmt::format("{}: a scene has another extension, expected {}",
+                             printable(Name),
+                             fmt::join(writtenEndings(), ", ")),
+                 ExitCode::Usage};
+  const auto S = scene();
+  const std::string Path =
+      fmt::format("{}-saved-{}-{}", Clock.sceneFile(S->Number), ++Saves,
+                  std::filesystem::path(Name).filename().string());
+  if (auto Done = writeShown(Path, *S); !Done)
+    return Done.error();
+  const auto Bytes = readFile(Path);
+  std::error_code Ignored;
+  std::filesystem::remove(Path, Ignored);
+  if (!Bytes)
+    return Bytes.error();
+  return std::string(reinterpret_cast<const char *>(Bytes->data()),
+                     Bytes->size());
 }
 
 std::string Session::describe() const {
@@ -171,8 +310,9 @@ std::string Session::describe() const {
   Json Knobs = Json::array(), Cameras = Json::array(), Names = Json::array();
   for (const Knob &K : allKnobs())
     Knobs.push_back({{"name", K.Name}, {"values", K.Values}});
-  // A scene that was dropped has no cameras that we know of.
-  if (S->Number == 1)
+  if (S->Found)
+    Cameras.push_back(cameraJson(*S->Found));
+  else
     for (const Camera &C : Settings.Cameras)
       Cameras.push_back(cameraJson(C));
   for (const Layer L : Layers)
@@ -189,22 +329,56 @@ std::string Session::describe() const {
     Ramp.push_back(fmt::format("rgb({}, {}, {})", toByte(Colour[0]),
                                toByte(Colour[1]), toByte(Colour[2])));
   }
-  return jsonText(Json{{"name", S->Name},
-                       {"number", S->Number},
-                       {"most_bytes", LargestScene},
-                       {"format", splat::name(S->File.Format)},
-                       {"gaussians", Gaussians.size()},
-                       {"sh_degree", Gaussians.ShDegree},
-                       {"box", Box},
-                       {"up", S->Up},
-                       {"device", Dev.name()},
-                       {"width", Settings.Width},
-                       {"height", Settings.Height},
-                       {"cameras", Cameras},
-                       {"through_lens", Settings.ThroughLens},
-                       {"layers", Names},
-                       {"ramp", Ramp},
-                       {"knobs", Knobs}});
+  return jsonText(
+      Json{{"name", S->Name},
+           {"number", S->Number},
+           {"edits", S->Edits},
+           {"endings", writtenEndings()},
+           {"most_bytes", LargestScene},
+           {"format", splat::name(S->File.Format)},
+           {"gaussians", Gaussians.size()},
+           {"sh_degree", Gaussians.ShDegree},
+           {"box", Box},
+           {"up", S->Up},
+           {"device", Dev.name()},
+           {"width", Settings.Size ? Json(Settings.Size->first) : Json()},
+           {"height", Settings.Size ? Json(Settings.Size->second) : Json()},
+           {"most_pixels", MostViewed},
+           {"cameras", Cameras},
+           {"through_lens", Settings.ThroughLens},
+           {"layers", Names},
+           {"ramp", Ramp},
+           {"knobs", Knobs}});
+}
+
+std::string Session::number() const {
+  return jsonText(Json{{"scene", scene()->Number}});
+}
+
+std::string Session::command(const ViewRequest &R) const {
+  const auto S = scene();
+  const std::string Stem = std::filesystem::path(S->Name).stem().string(),
+                    Base = Stem + "-view";
+  // Who has dropped a scene knows where its file is. An edited one has the name
+  // under which the page saves it.
+  const std::string File = S->Edits != 0    ? Stem + "-edited.ply"
+                           : S->IsTemporary ? S->Name
+                                            : S->Path;
+  std::vector<std::string> Words = Clock.words(File, *S, R, Base + ".json");
+  if (heatOf(R.Shown))
+    Words.insert(Words.end(), {"--heat-map", Base});
+  if (R.Shown == Layer::Depth)
+    Words.insert(Words.end(), {"--depth", Base + ".pfm"});
+  Words.insert(Words.end(), {"-o", Base + ".png"});
+  std::string Line = fmt::format("printf '%s\\n' {} > {} &&",
+                                 shellWord(jsonText(camerasJson({R.View}))),
+                                 shellWord(Base + ".json"));
+  for (const auto &[Name, Text] : Settings.Machine.commandLine())
+    Line += fmt::format(" {}={}", Name, shellWord(Text));
+  Line += " splat";
+  for (const std::string &Word : Words)
+    Line += " " + shellWord(Word);
+  return jsonText(Json{{"command", Line}});
 }
 
 Expected<GaussianBuffers> Session::uploaded(Launcher &L, const RenderPlan &Plan,
@@ -227,7 +401,7 @@ Expected<GaussianBuffers> Session::uploaded(Launcher &L, const RenderPlan &Plan,
 
 Expected<DrawnView> Session::drawNew(const ViewRequest &R,
                                      const ShownScene &S) {
-  const RenderOptions O = optionsOf(R, S.File.DrawnAs);
+  const RenderOptions O = optionsOf(R, S);
   const ViewFacts Own = factsOfAll(S.File.Gaussians, {R.View}, O);
   const bool Continues = Facts && FactsOf == S.Number && FactsBy == O.Optics;
   Facts = Continues ? combined(*Facts, Own) : Own;
@@ -315,10 +489,15 @@ Expected<ViewAnswer> Session::frame(const ViewRequest &R, const Asker &From) {
   }
   if (R.Shown == Layer::Picture)
     P = paintPicture(Result.Picture);
-  else if (R.Shown == Layer::Depth)
+  else if (R.Shown == Layer::Depth) {
     P = paintDepth(*Result.Depths);
+    A.Facts["point"] = pointOf(*Result.Depths, R);
+  }
   A.Facts["layer"] = name(R.Shown);
-  A.Facts["scale"] = {{"low", P.Low}, {"high", P.High}, {"unit", P.Unit}};
+  A.Facts["scale"] = {{"low", P.Low},
+                      {"high", P.High},
+                      {"unit", P.Unit},
+                      {"logarithmic", P.IsLogarithmic}};
   A.Rgba = std::move(P.Rgba);
   return A;
 }

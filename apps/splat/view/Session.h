@@ -5,6 +5,7 @@
 #include "view/FairLock.h"
 #include "view/Judge.h"
 #include "view/PageCalls.h"
+#include "view/Picked.h"
 #include "view/Request.h"
 #include "view/ShownScene.h"
 #include "view/Stopwatch.h"
@@ -17,6 +18,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vorion::splat {
@@ -45,7 +47,8 @@ public:
                                            ///< render`
     std::vector<Camera> Cameras;           ///< with the lenses of photographs
     bool ThroughLens = false; ///< initial state, for cameras with both
-    int Width = 480, Height = 272;
+    /// Width and height of pictures at rest; empty: the page decides.
+    std::optional<std::pair<int, int>> Size;
   };
 
   /// Opens the device and shows \p First.
@@ -53,6 +56,9 @@ public:
 
   /// Device, scene, cameras and knobs, as JSON.
   std::string describe() const;
+
+  /// The number of the scene, as JSON.
+  std::string number() const;
 
   /// Executes the request \p R. Slow parts (clock and reference) are executed
   /// for one call at a time, in the order of calls. They end with an error if
@@ -65,12 +71,28 @@ public:
   /// The Gaussians of a pixel, as JSON.
   std::string pixel(const ViewRequest &R);
 
+  /// The line for a shell that draws the picture of \p R, as JSON: `splat
+  /// render` in the folder of this process, with a file of its camera.
+  std::string command(const ViewRequest &R) const;
+
   /// Replaces the scene by the file \p Name with \p Content. On an error the
   /// old scene stays.
   Expected<Success> replace(std::string Name, const std::string &Content);
 
+  /// Which Gaussians \p R selects, and where \c R.View shows them: pairs of
+  /// floats, little endian, in place of the pixels.
+  Expected<ViewAnswer> selection(const PickedRequest &R) const;
+
+  /// Changes the scene. Undo takes the last change back. On an error the scene
+  /// stays.
+  Expected<Success> edit(const PickedRequest &R);
+
+  /// The bytes of the scene in the format of the extension of \p Name.
+  Expected<std::string> saved(const std::string &Name);
+
 private:
   Session(Setup S, Device D, TemporaryFolder F);
+  void change(ShownScene Next);
   void show(ShownScene Next);
   std::shared_ptr<const ShownScene> scene() const;
 
@@ -88,7 +110,16 @@ private:
   Judge Reference;
   Stopwatch Clock;
 
-  std::mutex ReplaceLock; ///< scenes are opened one at a time
+  std::mutex ReplaceLock; ///< scenes are opened and edited one at a time
+  /// \name Protected by ReplaceLock
+  /// @{
+  std::shared_ptr<const ShownScene> Opened; ///< the scene before its edits;
+                                            ///< empty without edits
+  /// The edit that removed each of its Gaussians, from 1; 0 for the others.
+  std::vector<unsigned> RemovedBy;
+  unsigned Edits = 0;
+  /// @}
+  std::atomic<unsigned> Saves = 0;
   mutable std::mutex SceneLock;
   std::shared_ptr<const ShownScene> Shown; ///< protected by SceneLock
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "cameras/Vector.h"
+#include "io/Cameras.h"
 #include "scene/SceneFile.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,21 @@ struct ShownScene {
   /// The path and the reading options for `splat render`.
   std::string Path;
   std::vector<std::string> Words;
+  /// Whether that file is, or will be when it is needed, in a folder of this
+  /// process.
+  bool IsTemporary = false;
   SceneFile File;
   Vector Up{};         ///< up direction, a unit vector
   uint64_t Number = 0; ///< counts opened scenes from 1
+  /// The automatic view of a scene that a page sent, which has no cameras.
+  std::optional<Camera> Found = std::nullopt;
+  /// Depth of the near plane, if it is not that of the rules (SceneUnit.h).
+  std::optional<float> Near = std::nullopt;
+  unsigned Edits = 0; ///< number of edits since it was opened
 };
+
+/// Writes the Gaussians of \p S in the frame of its file, in the format of the
+/// extension of \p Path, or as INRIA's PLY.
+Expected<Success> writeShown(const std::string &Path, const ShownScene &S);
 
 } // namespace vorion::splat

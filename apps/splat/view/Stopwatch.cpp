@@ -44,6 +44,22 @@ std::string Stopwatch::sceneFile(uint64_t Number) const {
   return fmt::format("{}/scene-{}", Folder.path(), Number);
 }
 
+std::vector<std::string> Stopwatch::words(const std::string &Scene,
+                                          const ShownScene &S,
+                                          const ViewRequest &R,
+                                          const std::string &Cameras) const {
+  std::vector<std::string> Words{"render", Scene};
+  const auto Append = [&Words](const std::vector<std::string> &More) {
+    Words.insert(Words.end(), More.begin(), More.end());
+  };
+  Append(S.Words);
+  Append(DeviceWords);
+  Append({"--cameras", Cameras, "--near",
+          fmt::format("{}", optionsOf(R, S).nearLimit())});
+  Append(R.Chosen.arguments());
+  return Words;
+}
+
 Expected<std::shared_ptr<const MachineTime>>
 Stopwatch::measure(const ShownScene &S, const ViewRequest &R,
                    const std::function<bool()> &GiveUp) {
@@ -60,18 +76,14 @@ Stopwatch::measure(const ShownScene &S, const ViewRequest &R,
   const auto File = [this](const char *Name) {
     return Folder.path() + "/" + Name;
   };
-  Camera View = R.View;
-  View.Name = "page";
-  if (auto Written = writeCameras(File("cameras.json"), {View}); !Written)
+  if (S.IsTemporary && !std::filesystem::exists(S.Path))
+    if (auto Written = writeShown(S.Path, S); !Written)
+      return Written.error();
+  if (auto Written = writeCameras(File("cameras.json"), {R.View}); !Written)
     return Written.error();
-  std::vector<std::string> Words{"render", S.Path};
-  Words.insert(Words.end(), S.Words.begin(), S.Words.end());
-  Words.insert(Words.end(), DeviceWords.begin(), DeviceWords.end());
-  Words.insert(Words.end(),
-               {"--cameras", File("cameras.json"), "--view", "page", "-o",
-                File("picture.pfm"), "--json", File("report.json"), "--time"});
-  const auto Knobs = R.Chosen.arguments();
-  Words.insert(Words.end(), Knobs.begin(), Knobs.end());
+  std::vector<std::string> Words = words(S.Path, S, R, File("cameras.json"));
+  Words.insert(Words.end(), {"-o", File("picture.pfm"), "--json",
+                             File("report.json"), "--time"});
   DeviceOptions Watched = Machine;
   Watched.set("VORION_TILES", File("tiles"));
   // A process that is ended leaves there what it would have removed.

@@ -47,6 +47,12 @@ public:
   /// The file name for a scene without a file.
   std::string sceneFile(uint64_t Number) const;
 
+  /// The arguments of `splat` that draw \p R with the only camera of the file
+  /// \p Cameras, without the output.
+  std::vector<std::string> words(const std::string &Scene, const ShownScene &S,
+                                 const ViewRequest &R,
+                                 const std::string &Cameras) const;
+
 private:
   struct Kept {
     uint64_t Scene;

@@ -63,9 +63,15 @@ void BoundsCheck::rasterCommand(const raster::CommandWork &W) {
   if (J.KeepsCounts)
     checkRange(W, "counts", J.Last, CountsBytes);
   for (unsigned Row = 0; Row < J.Height; ++Row) {
-    if (!J.Drains)
+    if (J.usesOutput())
       checkRange(W, "row of output", J.Output + Row * J.OutputPitch,
-                 J.Width * sizeof(Pixel));
+                 J.Width * J.pixelBytes());
+    if (J.IsLimited)
+      checkRange(W, "row of limits", J.Limit + Row * (J.OutputPitch / 4),
+                 J.Width * sizeof(uint32_t));
+    if (J.StartsLate)
+      checkRange(W, "row of first entries", J.From + Row * (J.OutputPitch / 4),
+                 J.Width * sizeof(uint32_t));
     if (J.IsBackward || J.KeepsLast)
       checkRange(W, "row of last contributors",
                  J.Last + Row * (J.OutputPitch / 4),

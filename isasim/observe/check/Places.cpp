@@ -83,8 +83,8 @@ std::string Places::describe(uint32_t Address, const Step &S,
   case Nothing:
     break;
   }
-  return Address < VX_GLOBAL_BASE ? "near address 0: a null pointer?"
-                                  : "unmapped memory";
+  return Address < globalBase(Shape) ? "near address 0: a null pointer?"
+                                     : "unmapped memory";
 }
 
 std::string Places::describeAccess(const Step &S, unsigned Lane) const {

@@ -39,11 +39,11 @@ private:
     uint32_t Group = 0; ///< number of the group's start, 0 for no access
     Time When = 0;
     uint32_t Pc = 0;
-    uint16_t Agent = 0; ///< Places::agentOf()
-    uint8_t Hart = 0;   ///< warp and lane
-    uint8_t Bytes : 4 = 0;
-    uint8_t IsAtomic : 1 = 0;
-    uint8_t Writes : 1 = 0;
+    uint32_t Agent : 18 = 0; ///< Places::agentOf()
+    uint32_t Hart : 8 = 0;   ///< warp and lane
+    uint32_t Bytes : 4 = 0;
+    uint32_t IsAtomic : 1 = 0;
+    uint32_t Writes : 1 = 0;
   };
   /// Two accesses of which an access of any work-item differs from one.
   using Pair = std::array<Access, 2>;
@@ -245,7 +245,7 @@ RaceCheck::Access RaceCheck::accessOf(const Commit &C) {
   A.Group = Own.Group;
   A.When = Own.Now;
   A.Pc = C.Pc;
-  A.Agent = static_cast<uint16_t>(Where.agentOf(C));
+  A.Agent = Where.agentOf(C);
   A.IsAtomic = Where.isAtomic(C);
   return A;
 }

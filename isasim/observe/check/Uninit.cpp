@@ -339,11 +339,10 @@ void UninitCheck::commit(const Commit &C) {
 
 void UninitCheck::rasterCommand(const raster::CommandWork &W) {
   const raster::Job &J = W.What;
-  if (J.Drains)
+  if (!J.usesOutput())
     return;
   for (unsigned Row = 0; Row < J.Height; ++Row)
-    Global.set(J.Output + Row * J.OutputPitch, J.Width * sizeof(raster::Pixel),
-               true);
+    Global.set(J.Output + Row * J.OutputPitch, J.Width * J.pixelBytes(), true);
 }
 
 std::unique_ptr<Check> makeUninitCheck(Reporter Out, const Places &Where) {

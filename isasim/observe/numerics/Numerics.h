@@ -1,5 +1,5 @@
 /// The numeric sanitizer of `--numerics`: every fp32 value has a double beside
-/// it, and where the two part is reported (docs/debugging.md, "Numerics").
+/// it, and where the two part is reported (docs/numeric-sanitizer.md).
 #pragma once
 
 #include "observe/numerics/CoreShadow.h"

@@ -2,6 +2,7 @@
 
 #include "observe/numerics/ShadowMath.h"
 #include "raster/CommandInput.h"
+#include "raster/PixelRanges.h"
 #include "vorion/isasim/Machine.h"
 
 #include <algorithm>
@@ -39,12 +40,15 @@ struct RasterShadow::Tile {
   TileBuffer Real;
   double Color[3][TileBuffer::Pixels];
   double T[TileBuffer::Pixels];
+  std::optional<PixelRanges> Ranges;
+  uint32_t Done = 0; ///< entries of the list, before hand-over and after it
 
-  void reset(const Job &Task) {
+  void reset(const Job &Task, RasterMemory &Storage) {
     Real.reset(Task.X, Task.Y, Task.Width, Task.Height);
     for (auto &Plane : Color)
       std::fill(std::begin(Plane), std::end(Plane), 0.0);
     std::fill(std::begin(T), std::end(T), 1.0);
+    Ranges.emplace(Task, Storage, Real);
   }
 };
 
@@ -56,9 +60,9 @@ public:
 
   /// \p Address of the record, 0 for a pushed one.
   void blend(const Gaussian &G, uint32_t Number, uint32_t Address);
-  /// So many entries of the list, or until all pixels are saturated. False if
-  /// the unit refuses one.
-  bool blendList(RasterMemory &Storage, uint64_t Entries);
+  /// So many entries of the list, or until no pixel takes more. \p Before: of
+  /// the list, at its hand-over. False if the unit refuses one.
+  bool blendList(RasterMemory &Storage, uint64_t Entries, uint32_t Before = 0);
 
 private:
   struct Fragment {
@@ -277,11 +281,12 @@ void RasterShadow::Replay::blend(const Gaussian &G, uint32_t GaussianNumber,
   }
 }
 
-bool RasterShadow::Replay::blendList(RasterMemory &Storage, uint64_t Entries) {
+bool RasterShadow::Replay::blendList(RasterMemory &Storage, uint64_t Entries,
+                                     uint32_t Before) {
   const GaussianList List(Task, Storage);
   Fetched Entry;
-  for (uint32_t N = 0; N != Entries && T.Real.Live != 0; ++N) {
-    if (List.fetch(N, Entry) != VR_OK)
+  for (uint64_t N = 0; N != Entries && T.Ranges->goTo(T.Done); ++N, ++T.Done) {
+    if (List.fetch(T.Done - Before, Entry) != VR_OK)
       return false;
     blend(Entry.Record,
           (Entry.Address - Task.Gaussians) / uint32_t{sizeof(Gaussian)},
@@ -309,12 +314,13 @@ void RasterShadow::finish(const Job &Task, const Tile &T) {
     const std::byte *Row = Task.Drains ? nullptr : outputRow(Task, *Global, Y);
     for (unsigned X = 0; X != Task.Width; ++X) {
       const unsigned At = Y * Side + X;
-      PixelFinding F{
-          Task.X + X,
-          Task.Y + Y,
-          {T.Real.R[At], T.Real.G[At], T.Real.B[At], std::fabs(T.Real.T[At])},
-          {T.Color[0][At], T.Color[1][At], T.Color[2][At], T.T[At]},
-          0};
+      const Pixel Written = T.Ranges->written(Y, X);
+      PixelFinding F{Task.X + X,
+                     Task.Y + Y,
+                     Written,
+                     {T.Color[0][At], T.Color[1][At], T.Color[2][At],
+                      std::copysign(T.T[At], double{Written.T})},
+                     0};
       const float Is[] = {F.Actual.R, F.Actual.G, F.Actual.B};
       for (unsigned N = 0; N != 3; ++N)
         F.Off = std::max(F.Off, std::fabs(Is[N] - F.Reference[N]));
@@ -346,25 +352,29 @@ void RasterShadow::finish(const Job &Task, const Tile &T) {
 
 void RasterShadow::rasterCommand(const raster::CommandWork &W) {
   const Job &Task = W.What;
-  // Gradients go to the core, which follows them no further.
-  if (Task.Refusal || Task.IsBackward)
+  // Gradients go to the core, which follows them no further. What a tile has
+  // loaded is not there any more.
+  if (Task.Refusal || Task.IsBackward || Task.Units.isOpaque() ||
+      Task.LoadsPixels)
     return;
   auto T = std::make_unique<Tile>();
-  T->reset(Task);
+  T->reset(Task, *Global);
+  T->Done = W.First;
   Replay R(*this, Task, *T);
   // The unit says how far it went; what it refused has no result.
   const uint64_t Fetched = W.Counts.Gaussians;
   if (Task.TakesPushed) {
-    for (uint64_t N = 0; N != Fetched; ++N) {
-      const Gaussian &G = W.Pushed[N];
-      if (checkGaussian(G) != VR_OK)
+    for (uint64_t N = 0; N != Fetched; ++N, ++T->Done) {
+      const Gaussian &G = W.Pushed[T->Done];
+      T->Ranges->goTo(T->Done);
+      if (checkRecord(G) != VR_OK)
         return;
       R.blend(G, G.Tag & ~VR_INTERSECT, 0);
     }
   } else {
     if (!R.blendList(*Global, Fetched))
       return;
-    if (Fetched != Task.Count && T->Real.Live != 0) {
+    if (T->Done != Task.Count && T->Ranges->left() != 0) {
       if (!Task.mayHandOver())
         return; // the next record is not there
       HandedOver[{W.Core, Task.Output}] = std::move(T);
@@ -384,7 +394,7 @@ void RasterShadow::tail(const raster::TailWork &W) {
   if (W.What.Refusal)
     return;
   Replay R(*this, W.What, *T);
-  if (!R.blendList(*Global, W.What.Count))
+  if (!R.blendList(*Global, W.What.Count, T->Done))
     return;
   ++Found.Commands;
   ++Found.Tails;

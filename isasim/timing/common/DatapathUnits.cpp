@@ -14,19 +14,9 @@ namespace {
 
 using Lane = std::array<DatapathUnit, 5>;
 
-/// The paper's "streamlined three-stage pipeline", a cycle a stage but for the
-/// exponential. Operations are those of docs/abi.md, "Rasterizer".
-constexpr DatapathUnit PowerUnit{
-    .Name = "power",
-    .Latency = 1,
-    .Interval = 1,
-    .Multipliers = 7,
-    .Adders = 4,
-    .ProductBits = 0,
-    .AdderBits = 0,
-    .TableBits = 0,
-    .Source = "first stage [paper]; a dx dx, c dy dy, b dx dy and the half are "
-              "7 multiplications, dx, dy and two sums 4 additions"};
+/// With the front end, the paper's "streamlined three-stage pipeline", a cycle
+/// a stage but for the exponential. Operations are those of docs/abi.md,
+/// "Rasterizer".
 constexpr DatapathUnit AlphaUnit{
     .Name = "alpha",
     .Latency = 0,
@@ -63,12 +53,26 @@ constexpr double TableBitArea = 1;
 using Lanes =
     std::array<std::array<Lane, raster::BlendUnitCount>, raster::ExpUnitCount>;
 
+/// Of opaque primitives.
+using SurfaceLane = std::array<DatapathUnit, 2>;
+
+/// By row of FrontEnds; the conic's is not used.
+std::span<const DatapathUnit> surfaceLane(uint8_t FrontEnd) {
+  static const std::vector<SurfaceLane> All = [] {
+    std::vector<SurfaceLane> Made;
+    for (const DatapathUnit &U : FrontEndParts)
+      Made.push_back({U, GatherUnit});
+    return Made;
+  }();
+  return All[FrontEnd < All.size() ? FrontEnd : 0];
+}
+
 const Lane &laneOf(raster::LaneUnits Units) {
   static const Lanes All = [] {
     Lanes Made;
     for (std::size_t E = 0; E != Made.size(); ++E)
       for (std::size_t B = 0; B != Made[E].size(); ++B)
-        Made[E][B] = {PowerUnit, ExpParts[E], AlphaUnit, BlendParts[B],
+        Made[E][B] = {FrontEndParts[0], ExpParts[E], AlphaUnit, BlendParts[B],
                       GatherUnit};
     return Made;
   }();
@@ -106,7 +110,8 @@ using BackwardPair = std::array<DatapathUnit, 3>;
 } // namespace
 
 std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units) {
-  return laneOf(Units);
+  return Units.isOpaque() ? surfaceLane(Units.FrontEnd)
+                          : std::span<const DatapathUnit>(laneOf(Units));
 }
 
 std::string_view expUnitName(uint8_t Exp) { return ExpParts[Exp].Name; }
@@ -131,7 +136,7 @@ unsigned backwardDepth(raster::LaneUnits Units, unsigned Reciprocal) {
 
 unsigned laneDepth(raster::LaneUnits Units) {
   unsigned Depth = 0;
-  for (const DatapathUnit &U : laneOf(Units))
+  for (const DatapathUnit &U : datapathUnits(Units))
     Depth += U.Latency;
   return Depth;
 }
@@ -181,8 +186,8 @@ std::string areasJson() {
     J["blend"].push_back(area(U));
   for (const DatapathUnit &U : ReciprocalParts)
     J["reciprocal"].push_back(area(U));
-  J["other"] =
-      restOfLane() + area(PowerUnit) + area(AlphaUnit) + area(GatherUnit);
+  J["other"] = restOfLane() + area(FrontEndParts[0]) + area(AlphaUnit) +
+               area(GatherUnit);
   return jsonText(J);
 }
 

@@ -40,7 +40,7 @@ std::string_view blendUnitName(uint8_t Blend);
 /// Cycles from giving a pixel to a lane until its new value is stored.
 unsigned laneDepth(raster::LaneUnits Units);
 
-/// \name Areas, um^2 at 45 nm (docs/model.md, "Area of a lane")
+/// \name Areas, um^2 at 45 nm (docs/lane-units.md, "Area of a lane")
 /// @{
 double area(const DatapathUnit &U);
 /// Of a lane with its share of the rasterizer's buffers, dispatch and gather.

@@ -73,12 +73,16 @@ public:
                         uint64_t /*ResultAt*/) {}
   virtual void rasterSpent(unsigned /*Socket*/, RasterCycle, CycleSpan) {}
   virtual void pixelSpent(unsigned /*Cluster*/, PixelCycle, CycleSpan) {}
+  virtual void commandSpent(CommandCycle, CycleSpan) {}
+  virtual void dmaSpent(unsigned /*Engine*/, DmaCycle, CycleSpan) {}
 
   /// A rasterizer was busy with a command, or a pixel unit with the rest of
   /// one (raster/WorkLog.h). May come in a later run than the command's start.
   virtual void tile(const raster::CommandWork &, CycleSpan) {}
   virtual void tileRest(const raster::TailWork &, CycleSpan) {}
 
+  /// A direction of the link to the L2 carried a message.
+  virtual void linkBusy(bool /*IsToL2*/, CycleSpan) {}
   /// A bank worked on a request, or waited for an MSHR and took no other.
   virtual void bankBusy(BankPlace, CycleSpan) {}
   /// A line went to a DRAM channel's controller.

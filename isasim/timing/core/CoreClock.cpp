@@ -13,54 +13,71 @@ static CoreTiming forWarps(CoreTiming P, size_t Warps) {
   return P;
 }
 
-CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
+CoreClock::CoreClock(const CoreTiming &Params, MemoryPort Port,
                      const std::vector<TraceBuffer *> &Traces,
-                     unsigned Barriers, bool AsksForCodeIn)
-    : Timing(forWarps(Params, Traces.size())), Unit(ToMemory.Unit),
+                     unsigned Barriers, bool AsksForCodeIn,
+                     bool ReportsDequeues)
+    : Timing(forWarps(Params, Traces.size())), ToMemory(Port),
       IsAlone(Traces.size() == 1), AsksForCode(AsksForCodeIn),
       IsIdeal(Timing.FetchInterval == 1 && Timing.BranchCycles == 1 &&
               Timing.SplitCycles == 1 && Timing.JoinCycles == 1 &&
               Timing.CsrCycles == 1 && Timing.UnitQueue == 0 &&
               Timing.Fpu == 0 && !AsksForCode && IsAlone),
-      Others(Traces.size()), LocalBarriers(Barriers),
-      InFlight(ToMemory, Timing.LsuQueue + 1), Accesses(Timing.LsuQueue),
-      L1(Timing.DcacheKib, Timing.DcacheWays),
-      L1Banks(L1.exists() ? Timing.DcacheBanks : 0, Timing.DcacheStoreQueue) {
+      Others(Traces.size()),
+      IssueOrder({Port.Unit, static_cast<uint32_t>(Traces.size())},
+                 Timing.IssueInTurn != 0),
+      LocalBarriers(Barriers), InFlight(ToMemory, Timing.LsuQueue + 1),
+      Accesses(Timing.LsuQueue), Loaded(Traces.size()),
+      L1(Timing.DcacheKib, Timing.DcacheWays, Port.Unit),
+      L1Banks(L1.exists() ? Timing.DcacheBanks : 0, Timing.DcacheStoreQueue,
+              Timing.LaneBuffers, ReportsDequeues) {
   for (unsigned W = 0; W != Others.size(); ++W)
     of(W).Trace = Traces[W];
 }
 
 void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
-                      uint64_t Start) {
+                      uint64_t Start, uint64_t LaunchedAt) {
   Ops = &Program;
   FirstWord = WordOfLine;
   if (AsksForCode)
-    CodeReady.assign(lineOfCode(Program.size() - 1) + 1, Turn::Never);
+    CodeReady.assign(lineOfCode(Program.size() - 1) + 1, {Turn::Never});
   Next = Start;
   UnitFree.fill(0);
   for (UnitQueue &Q : Queues)
     Q = {std::vector<uint64_t>(Timing.UnitQueue), 0};
+  Queues[size_t(Port::Lsu)] = {std::vector<uint64_t>(Timing.LsuFront), 0};
+  LeftForCache = {std::vector<uint64_t>(Timing.LaneBuffers), 0};
+  drop();
+  LineFree.assign(Timing.LinesInFlight, 0);
+  FillTurns.clear();
+  LocalWaits.assign(Timing.LaneBuffers + 1, {});
+  OldestLocal = 0;
   Places[size_t(Port::Fpu)] = {std::vector<uint64_t>(Timing.FpInFlight), 0};
   Places[size_t(Port::Alu)] = {std::vector<uint64_t>(1), 0}; // the divider
   for (unsigned N = 0; N <= Timing.LsuQueue; ++N)
     InFlight.begin(N);
   UnitsBusyUntil = 0;
-  LastDone = 0;
+  LastDone = {};
   L1.clear();
   L1Banks.clear();
+  L1Misses.clear();
   Spent = Told = {};
   ToldUntil = Start;
   Serial = 0;
   Classes = {};
   LinesRequested = LocalConflicts = LocalLanes = L1Hits = StaleLoads = 0;
-  spend(CoreCycle::Start, Timing.StartCycles);
-  if (Watch)
-    tell(nullptr);
+  for (const auto &[Why, Cycles] :
+       {std::pair{CoreCycle::Launch, LaunchedAt - Start},
+        {CoreCycle::Start, uint64_t{Timing.StartCycles}}}) {
+    spend(Why, Cycles);
+    if (Watch)
+      tell(nullptr);
+  }
   select(0);
   for (unsigned W = 0; W != Others.size(); ++W) {
     WarpTime New;
     New.Trace = of(W).Trace;
-    New.At = Start;
+    New.At = LaunchedAt;
     New.ReadyWhy.fill(CoreCycle::Operand);
     New.Fetched = Next;
     of(W) = std::move(New);
@@ -115,15 +132,31 @@ void CoreClock::end(uint64_t End) {
     tell(nullptr);
 }
 
-void CoreClock::fetched(unsigned Warp, uint32_t Line, uint64_t Then,
+void CoreClock::fetched(unsigned Warp, uint32_t Line, const Arrival &Then,
                         bool ForGood) {
   select(Warp);
   Blocked = false;
   Now = State::Starved;
   CodeLine = Line;
-  decodeNotBefore(Then, CoreCycle::Fetch);
+  decodeNotBefore(Then);
   if (ForGood)
     CodeReady[Line] = Then;
+}
+
+/// Whether a bank of the data cache that some of \p Needed need takes nothing
+/// until a line leaves the port.
+bool CoreClock::bankIsFull(std::span<const uint32_t> Needed) const {
+  return L1Banks.seesDequeues() &&
+         std::ranges::any_of(
+             Needed, [this](uint32_t Line) { return !L1Banks.hasRoom(Line); });
+}
+
+/// The current access cannot be made before \p Then.
+bool CoreClock::waitForAccess(uint64_t Then) {
+  At = Then;
+  if (!IsAlone)
+    advanceInTurn(0);
+  return false;
 }
 
 /// The data cache's line for a load at \p Place whose address is known at
@@ -133,35 +166,140 @@ const DataCache::Line *CoreClock::findInL1(uint32_t Address, uint64_t Now,
   const DataCache::Line *Line = L1.find(Address);
   if (Line) {
     ++L1Hits;
-    InFlight.add(Place, std::max(Now + Timing.DcacheCycles, Line->ReadyAt));
-  } else {
-    Accesses[Place].Misses.push_back(Address);
+    const uint64_t Read = Now + Timing.DcacheCycles;
+    InFlight.add(Place, Line->Ready.At > Read ? Line->Ready : Arrival{Read});
   }
   return Line;
+}
+
+/// Asks memory for a line of the data cache that the load at \p Place wants.
+/// Returns when it comes, Turn::Never if that is not known.
+uint64_t CoreClock::load(MemorySystem &Memory, unsigned Place, CacheRequest R) {
+  const uint32_t Free = L1Misses.next();
+  R.From = {ToMemory.Unit, LineTicket | Free};
+  const uint64_t Writes = Memory.writers().count();
+  if (const auto Then = Memory.access(ToMemory, R)) {
+    InFlight.add(Place, *Then);
+    Fills.push_back({R.Address, *Then});
+    keepForFill(Then->At);
+    return Then->At;
+  }
+  L1Misses.add(Free, {R.Address, Writes, {InFlight.expect(Place)}});
+  return Turn::Never;
+}
+
+/// A line comes from memory that is there for its load at \p Ready. The data
+/// cache fills it, and the request is looked up again.
+void CoreClock::keepForFill(uint64_t Ready) {
+  if (Timing.DcacheFillCycles)
+    FillTurns.push_back(Ready - Timing.DcacheCycles - Timing.DcacheFillCycles);
+}
+
+/// When a line of an access leaves for the data cache, \p Then at the earliest.
+uint64_t CoreClock::leave(uint64_t Then, bool IsLoad) {
+  if (IsLoad && Timing.LinesInFlight) {
+    NextLine = static_cast<size_t>(std::ranges::min_element(LineFree) -
+                                   LineFree.begin());
+    Then = std::max(Then, LineFree[NextLine]);
+  }
+  while (!FillTurns.empty() &&
+         FillTurns.front() + Timing.DcacheFillCycles <= Then)
+    FillTurns.pop_front();
+  for (const uint64_t Fill : FillTurns)
+    if (Fill <= Then)
+      Then = std::max(Then, Fill + Timing.DcacheFillCycles);
+  return Then;
 }
 
 bool CoreClock::access(MemorySystem &Memory) {
   const OpInfo &O = *Waiting;
   const auto A = std::bit_cast<AccessWord>(Trace->word());
+  if (const uint64_t Room = lsuFreeAt(); waitsInFront() && Room > At)
+    return waitForAccess(Room);
+  for (unsigned N = 0; N != A.Lines; ++N)
+    Lines[N] = Trace->word(1 + N);
   unsigned Place = Timing.LsuQueue;
+  uint64_t Free = 0;
   if (needsPlace(O, A)) {
     Place = firstPlace();
-    if (const uint64_t Free = placeFreeAt(Place); Free > At) {
-      At = Free;
-      return false;
-    }
-    waitUntil(At, CoreCycle::LsuQueue);
+    Free = placeFreeAt(Place);
+  }
+  const bool IsBlocked =
+      Free == Turn::Never || bankIsFull({Lines.data(), A.Lines});
+  const bool Waits = waitsInFront() && (IsBlocked || !InFront.empty());
+  if (!Waits && (IsBlocked || (Free > At && Timing.LsuFront == 0)))
+    return waitForAccess(IsBlocked ? Turn::Never : Free);
+  if (needsPlace(O, A) && !Waits) {
+    waitFor(Next, At, InFlight.arrivalOf(Place), CoreCycle::LsuQueue);
     InFlight.begin(Place);
-    Accesses[Place] = {&O, Current, Serial, {}, Memory.writers().count()};
+    Accesses[Place] = {&O, Current, Serial};
   }
+  waitUntil(At, CoreCycle::LsuQueue);
   Now = State::Starved;
-  if (A.Lines == 0) {
-    Trace->popWords(1);
-    InFlight.begin(Place, localAccess(O, A));
-    return true;
+  Trace->popWords(1 + A.Lines);
+  LocalLanes += A.Lines == 0 ? Lanes : 0;
+  if (Waits) {
+    InFront.push_back({&O, Current, Serial, Next, A, Lines});
+    setLoaded(Current, O, {Turn::Never});
+    beginFrontAt(At);
+  } else {
+    begin(Memory, O, Current, A, beginAccess(Free), Place);
   }
+  finish(O);
+  return true;
+}
 
-  CacheRequest R{.Now = At + Timing.AguCycles, .Address = 0};
+/// When the first access that waits in front of the LSU begins, if that is not
+/// known yet: not before \p Then, when something has changed that it may have
+/// waited for.
+void CoreClock::beginFrontAt(uint64_t Then) {
+  if (InFront.empty() || FrontAt != Turn::Never)
+    return;
+  const FrontAccess &A = InFront.front();
+  const uint64_t Free =
+      needsPlace(*A.Op, A.Word) ? placeFreeAt(firstPlace()) : 0;
+  if (Free != Turn::Never && !bankIsFull({A.Lines.data(), A.Word.Lines}))
+    FrontAt = std::max({Then, Free, A.IssuedAt, UnitFree[size_t(Port::Lsu)]});
+}
+
+void CoreClock::beginFront(MemorySystem &Memory) {
+  const FrontAccess A = InFront.front();
+  const uint64_t Begun = std::exchange(FrontAt, Turn::Never);
+  InFront.pop_front();
+  const OpInfo &O = *A.Op;
+  unsigned Place = Timing.LsuQueue;
+  if (needsPlace(O, A.Word)) {
+    Place = firstPlace();
+    InFlight.begin(Place);
+    Accesses[Place] = {&O, A.Warp, A.Serial};
+  }
+  Lines = A.Lines;
+  const uint64_t Done = begin(Memory, O, A.Warp, A.Word, Begun, Place);
+  if (Watch && Done != Turn::Never)
+    Watch->tell([&](TimeObserver &Each) {
+      Each.loadDone(Number, A.Serial, Done + O.Latency);
+    });
+  beginFrontAt(Begun);
+  // There is room for one more.
+  for (unsigned W = 0; W != Others.size(); ++W)
+    if (WarpTime &Each = of(W);
+        Each.Now == State::Access && Each.At == Turn::Never)
+      Each.At = std::max(Next, lsuFreeAt());
+  if (Now == State::Answer || !IsAlone)
+    advance();
+}
+
+/// The LSU begins the access \p O of \p Warp, to local memory or to Lines, at
+/// \p Begun. Returns when it is done, Turn::Never if that is not known.
+uint64_t CoreClock::begin(MemorySystem &Memory, const OpInfo &O, unsigned Warp,
+                          AccessWord A, uint64_t Begun, unsigned Place) {
+  if (A.Lines == 0) {
+    const uint64_t Done = localAccess(O, Warp, A, Begun, Place);
+    if (Place != Timing.LsuQueue)
+      InFlight.begin(Place, Done);
+    return Done;
+  }
+  CacheRequest R{.Now = Begun + Timing.AguCycles, .Address = 0};
   if (O.Class == OpClass::Atomic) {
     R.Op = CacheOp::Atomic;
     R.Extra = A.Conflicts - 1;
@@ -171,75 +309,138 @@ bool CoreClock::access(MemorySystem &Memory) {
   const bool UsesL1 = L1.exists() && O.Class == OpClass::Load;
   bool IsStale = false;
   const uint64_t First = R.Now;
+  const uint64_t Writes = Memory.writers().count();
   uint64_t Last = First;
   uint32_t Room = Timing.LinesAtOnce;
   for (unsigned N = 0; N != A.Lines; ++N, --Room) {
-    R.Address = Trace->word(1 + N);
+    R.Address = Lines[N];
     if (L1Banks.exist()) {
       R.Now = L1Banks.accept(R.Address, First);
       Last = std::max(Last, R.Now);
     } else if (Room == 0) {
-      Last = R.Now += Timing.LineCycles;
+      R.Now += Timing.LineCycles;
       Room = Timing.LinesAtOnce;
     }
-    if (UsesL1)
-      if (const auto *Line = findInL1(R.Address, R.Now, Place)) {
-        IsStale |= Memory.writers().isWritten(R.Address, Line->Writes, Unit);
+    if (L1.exists() && !L1Banks.exist())
+      R.Now = leave(R.Now, UsesL1);
+    Last = std::max(Last, R.Now);
+    if (UsesL1) {
+      const auto *Line = findInL1(R.Address, R.Now, Place);
+      if (!LineFree.empty())
+        LineFree[NextLine] =
+            Line ? std::max(Line->Ready.At, R.Now + Timing.DcacheCycles)
+                 : R.Now;
+      if (Line) {
+        IsStale |=
+            Memory.writers().isWritten(R.Address, Line->Writes, ToMemory.Unit);
         continue;
       }
+      if (LinesInFlight::Line *Asked = L1Misses.find(R.Address)) {
+        Asked->Waiting.push_back(InFlight.expect(Place));
+        continue;
+      }
+    }
     CacheRequest Below = R;
-    // The tags have been looked up before the request goes on.
-    Below.Now += UsesL1 ? Timing.DcacheCycles : 0;
     if (L1Banks.exist())
       Below.Now = L1Banks.send(R.Address, Below.Now);
-    InFlight.ask(Memory, Place, Below);
+    // The tags have been looked up before the request goes on.
+    Below.Now += UsesL1 || L1Banks.seesDequeues() ? Timing.DcacheCycles : 0;
+    if (L1Banks.seesDequeues())
+      Below.Dequeued = {ToMemory.Unit,
+                        DequeueTicket | L1Banks.bankOf(R.Address)};
+    if (UsesL1) {
+      const uint64_t Comes = load(Memory, Place, Below);
+      if (!LineFree.empty() && Comes != Turn::Never)
+        LineFree[NextLine] = Comes;
+    } else {
+      InFlight.ask(Memory, Place, Below);
+    }
   }
+  // All have been looked up before the first comes.
+  for (const Fill &F : Fills)
+    L1.fill(F.Address, F.Then, Writes);
+  Fills.clear();
   const uint64_t Leaving = Last + Timing.LineCycles - First;
   LinesRequested += A.Lines;
   StaleLoads += IsStale;
-  Trace->popWords(1 + A.Lines);
-  UnitFree[size_t(Port::Lsu)] = At + std::max<uint64_t>(Leaving, O.Interval);
-  const uint64_t Done = InFlight.readyAt(Place);
-  if (UsesL1 && Done != Turn::Never)
-    fillL1(Place, Done);
-  setLoaded(*this, O, Done);
-  finish(O);
-  return true;
-}
-
-/// An access \p O of \p W is done at \p Done, if that is known.
-void CoreClock::setLoaded(WarpTime &W, const OpInfo &O, uint64_t Done) {
-  const bool IsKnown = Done != Turn::Never;
-  if (IsKnown)
-    LastDone = std::max(LastDone, Done);
-  for (const unsigned Register : {O.Rd, O.HighRd})
-    setReady(W, Register, IsKnown ? Done + O.Latency : Done, CoreCycle::Memory);
-}
-
-/// The lines that the load at \p Place asked memory for come at \p Then.
-void CoreClock::fillL1(unsigned Place, uint64_t Then) {
-  for (const uint32_t Line : Accesses[Place].Misses)
-    L1.fill(Line, Then, Accesses[Place].Writes);
-}
-
-void CoreClock::answer(uint32_t Tag, uint64_t Then) {
-  const std::optional<unsigned> Place = InFlight.answer(Tag, Then);
-  if (!Place)
-    return;
-  const uint64_t Done = InFlight.readyAt(*Place);
-  LastDone = std::max(LastDone, Done);
-  if (*Place != Timing.LsuQueue) {
-    const Access &A = Accesses[*Place];
-    fillL1(*Place, Done);
-    setLoaded(of(A.Warp), *A.Op, Done);
-    if (Watch)
-      Watch->tell([&](TimeObserver &Each) {
-        Each.loadDone(Number, A.Serial, Done + A.Op->Latency);
-      });
-    // The access in front may have waited for a place.
-    if (Now == State::Access)
-      At = std::min(At, std::max(Next, Done + Timing.LsuHold));
+  uint64_t Sent = Begun + Leaving - 1;
+  if (Timing.LaneBuffers) {
+    const uint64_t Left =
+        std::exchange(Sent, std::max(Begun, LeftForCache.oldest()));
+    LeftForCache.add(Left + 1);
   }
+  endAccess(Sent, O);
+  setLoaded(Warp, O, InFlight.arrivalOf(Place));
+  return InFlight.readyAt(Place);
+}
+
+/// An access \p O of \p Warp is done at \p Done, if that is known.
+void CoreClock::setLoaded(unsigned Warp, const OpInfo &O, const Arrival &Done) {
+  const bool IsKnown = Done.At != Turn::Never;
+  if (IsKnown && Done.At > LastDone.At)
+    LastDone = Done;
+  for (const unsigned Register : {O.Rd, O.HighRd}) {
+    setReady(of(Warp), Register, IsKnown ? Done.At + O.Latency : Done.At,
+             Done.crossesLink() ? CoreCycle::Link : CoreCycle::Memory);
+    if (Done.crossesLink())
+      Loaded[Warp][Register] = Done;
+  }
+}
+
+/// The access at \p Place has been answered.
+void CoreClock::accessDone(unsigned Place) {
+  const Arrival Done = InFlight.arrivalOf(Place);
+  if (Done.At > LastDone.At)
+    LastDone = Done;
+  if (Place == Timing.LsuQueue)
+    return;
+  const LoadInFlight &A = Accesses[Place];
+  setLoaded(A.Warp, *A.Op, Done);
+  if (Watch)
+    Watch->tell([&](TimeObserver &Each) {
+      Each.loadDone(Number, A.Serial, Done.At + A.Op->Latency);
+    });
+  beginFrontAt(Done.At);
+  // The access in front may have waited for a place.
+  if (Now == State::Access)
+    At = std::min(At, std::max(Next, Done.At));
+}
+
+/// A line of the data cache comes.
+void CoreClock::lineComes(const Answer &A) {
+  const LinesInFlight::Line Line = L1Misses.take(A.To.Tag & ~LineTicket);
+  L1.fill(Line.Address, A.arrival(), Line.Writes);
+  keepForFill(A.At);
+  // It is looked up again behind the fill.
+  L1Banks.fill(Line.Address, A.At - Timing.DcacheCycles + 1,
+               Line.Waiting.size() - 1);
+  Answer Each = A;
+  for (const uint32_t Tag : Line.Waiting) {
+    Each.To.Tag = Tag;
+    if (const auto Place = InFlight.answer(Each))
+      accessDone(*Place);
+    ++Each.At;
+  }
+}
+
+/// A line has left the queue of \p Bank at \p Then: what waits for its bank
+/// tries again.
+void CoreClock::lineDequeued(uint32_t Bank, uint64_t Then) {
+  L1Banks.dequeued(Bank);
+  beginFrontAt(Then);
+  for (unsigned W = 0; W != Others.size(); ++W)
+    if (WarpTime &Each = of(W);
+        Each.Now == State::Access && Each.At == Turn::Never)
+      Each.At = std::max(Next, Then);
+}
+
+void CoreClock::answer(const Answer &A) {
+  if (A.To.Tag & DequeueTicket)
+    lineDequeued(A.To.Tag & ~DequeueTicket, A.At);
+  else if (A.To.Tag & LineTicket)
+    lineComes(A);
+  else if (const auto Place = InFlight.answer(A))
+    accessDone(*Place);
   if (Now == State::Answer || !IsAlone)
     advance();
 }
@@ -256,7 +457,7 @@ bool CoreClock::isIdle() const {
   for (unsigned W = 0; W != Others.size(); ++W)
     if (of(W).Now != State::Starved || !of(W).Trace->empty())
       return false;
-  return true;
+  return InFront.empty();
 }
 
 size_t CoreClock::backlog() const {
@@ -279,10 +480,12 @@ void CoreClock::setEnded(uint32_t Warps) {
 }
 
 uint64_t CoreClock::quietAt() const {
+  if (!InFront.empty())
+    return Turn::Never;
   for (unsigned N = 0; N <= Timing.LsuQueue; ++N)
     if (InFlight.readyAt(N) == Turn::Never)
       return Turn::Never;
-  return std::max(Next, LastDone);
+  return std::max(Next, LastDone.At);
 }
 
 } // namespace vorion::isasim

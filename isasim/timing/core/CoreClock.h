@@ -4,7 +4,9 @@
 
 #include "timing/common/TimeObserver.h"
 #include "timing/common/Turn.h"
+#include "timing/core/IssuePolicy.h"
 #include "timing/core/OpClass.h"
+#include "timing/memory/CachePolicy.h"
 #include "timing/memory/LineWaits.h"
 #include "timing/trace/TraceWriter.h"
 #include "vorion/isasim/Timing.h"
@@ -12,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,96 +26,198 @@ namespace vorion::isasim {
 /// invalidated when a run begins.
 class DataCache {
 public:
-  /// None if \p Kib is 0.
-  DataCache(uint32_t Kib, uint32_t WaysIn)
+  /// Of core \p Core; none if \p Kib is 0.
+  DataCache(uint32_t Kib, uint32_t WaysIn, uint32_t Core)
       : Ways(WaysIn), Sets(Kib * 1024 / TimingLineBytes / WaysIn),
-        Lines(size_t{Sets} * Ways) {}
+        Lines(size_t{Sets} * Ways),
+        Policy({"core", Core, Sets, Ways, /*Hint=*/false}) {}
 
   bool exists() const { return Sets != 0; }
-  void clear() { std::fill(Lines.begin(), Lines.end(), Line()); }
+  void clear() {
+    std::fill(Lines.begin(), Lines.end(), Line());
+    Policy.clear();
+  }
 
   struct Line {
     uint32_t Tag = 0; ///< line number plus 1, 0 for none
-    uint64_t Used = 0;
-    uint64_t ReadyAt = 0; ///< when it was or will be there
+    Arrival Ready;    ///< when it was or will be there
     /// Writes to memory that it has seen (LineWriters::count()).
     uint64_t Writes = 0;
   };
   /// The line of \p Address, or nullptr.
   const Line *find(uint32_t Address) {
     const uint32_t Number = Address / TimingLineBytes;
-    Line *Set = setOf(Number);
+    const Line *Set = setOf(Number);
     for (uint32_t W = 0; W != Ways; ++W)
       if (Set[W].Tag == Number + 1) {
-        Set[W].Used = ++Uses;
+        use(Number, W, false);
         return &Set[W];
       }
     return nullptr;
   }
 
-  /// The line of \p Address comes at \p ReadyAt with the first \p Writes
-  /// writes in it, in the place of the least recently used one.
-  void fill(uint32_t Address, uint64_t ReadyAt, uint64_t Writes) {
+  /// The line of \p Address comes at \p Ready with the first \p Writes
+  /// writes in it.
+  void fill(uint32_t Address, const Arrival &Ready, uint64_t Writes) {
     const uint32_t Number = Address / TimingLineBytes;
     Line *Set = setOf(Number);
-    *std::min_element(Set, Set + Ways, [](const Line &A, const Line &B) {
-      return A.Used < B.Used;
-    }) = {Number + 1, ++Uses, ReadyAt, Writes};
+    uint32_t Way = 0; // they are taken in order until all have lines
+    if (Set[Ways - 1].Tag != 0)
+      Way = Policy.victim(Number % Sets).Way;
+    else
+      while (Set[Way].Tag != 0)
+        ++Way;
+    Set[Way] = {Number + 1, Ready, Writes};
+    use(Number, Way, true);
   }
 
 private:
   Line *setOf(uint32_t Number) { return &Lines[size_t{Number % Sets} * Ways]; }
+  void use(uint32_t Number, uint32_t Way, bool IsFill) {
+    Policy.use({.Set = Number % Sets,
+                .Way = Way,
+                .Line = Number,
+                .IsFill = IsFill,
+                .IsWrite = false,
+                .Keep = false});
+  }
 
   uint32_t Ways, Sets;
   std::vector<Line> Lines;
-  uint64_t Uses = 0;
+  CachePolicy Policy;
+};
+
+/// The lines that a data cache has asked memory for and that have not come.
+/// Loads that want such a line wait for the same answer, and are given it one
+/// after the other.
+class LinesInFlight {
+public:
+  struct Line {
+    uint32_t Address = 0;
+    uint64_t Writes = 0;           ///< as of DataCache::Line
+    std::vector<uint32_t> Waiting; ///< tags of sets; none: nothing is asked for
+  };
+  void clear() { Lines.clear(); }
+  /// The line of \p Address, or null.
+  Line *find(uint32_t Address) {
+    for (Line &L : Lines)
+      if (!L.Waiting.empty() &&
+          L.Address / TimingLineBytes == Address / TimingLineBytes)
+        return &L;
+    return nullptr;
+  }
+  /// A number that no line has, for the next one.
+  uint32_t next() {
+    const auto Free = std::ranges::find_if(
+        Lines, [](const Line &L) { return L.Waiting.empty(); });
+    const auto Number = static_cast<uint32_t>(Free - Lines.begin());
+    if (Free == Lines.end())
+      Lines.emplace_back();
+    return Number;
+  }
+  void add(uint32_t Number, Line &&New) { Lines[Number] = std::move(New); }
+  /// Line \p Number has come.
+  Line take(uint32_t Number) { return std::exchange(Lines[Number], {}); }
+
+private:
+  std::vector<Line> Lines;
 };
 
 /// The banks of a data cache. A bank accepts one line per cycle. Stores and
 /// misses wait in a queue behind their bank for the core's port, which sends
-/// one line per cycle; a bank whose queue is full accepts nothing.
+/// one line per cycle; a bank that sees its queue full accepts nothing. It
+/// sees a line there three cycles after it has accepted it.
+///
+/// Where a crossbar below keeps the port waiting, it has these queues, and
+/// dequeued() says when a line has left its queue.
 class DataCacheBanks {
 public:
-  DataCacheBanks(uint32_t BanksIn, uint32_t QueueIn)
-      : Banks(BanksIn), Queue(QueueIn) {}
+  /// \p LaneQueue: lines in front of a bank whose queue is full.
+  /// \p ReportsDequeues: there is a crossbar below.
+  DataCacheBanks(uint32_t BanksIn, uint32_t QueueIn, uint32_t LaneQueue,
+                 bool ReportsDequeues)
+      : Banks(BanksIn), Queue(QueueIn), Most(QueueIn + LaneQueue),
+        SeesDequeues(ReportsDequeues && Banks && Queue) {}
 
   bool exist() const { return Banks != 0; }
+  bool seesDequeues() const { return SeesDequeues; }
   void clear() {
     FreeAt.assign(Banks, 0);
-    Leaves.assign(size_t{Banks} * Queue, 0);
+    Queued.assign(size_t{Banks} * queueRing(), {});
     Oldest.assign(Banks, 0);
+    Waiting.assign(Banks, 0);
     PortAt = 0;
+  }
+  uint32_t bankOf(uint32_t Address) const {
+    return Address / TimingLineBytes % Banks;
+  }
+  /// Whether the line of \p Address can wait for its bank, as far as is known.
+  bool hasRoom(uint32_t Address) const {
+    return !SeesDequeues || Waiting[bankOf(Address)] < Most;
   }
   /// When its bank accepts the line of \p Address, which arrives at \p Now.
   uint64_t accept(uint32_t Address, uint64_t Now) {
     const uint32_t Bank = bankOf(Address);
     uint64_t At = std::max(Now, FreeAt[Bank]);
-    if (Queue)
-      At = std::max(At, Leaves[Bank * Queue + Oldest[Bank]]);
+    if (Queue && !SeesDequeues)
+      while (const uint64_t Later = seesFullUntil(Bank, At))
+        At = Later;
     FreeAt[Bank] = At + 1;
     return At;
   }
-  /// When the port sends the line of \p Address, which its bank has processed
-  /// at \p Now.
+  /// When the port sends the line of \p Address, which its bank has accepted
+  /// at \p Now, at the earliest; not counting how long the bank takes.
   uint64_t send(uint32_t Address, uint64_t Now) {
     const uint32_t Bank = bankOf(Address);
+    if (SeesDequeues) {
+      ++Waiting[Bank];
+      return Now;
+    }
     const uint64_t At = std::max(Now, PortAt);
     PortAt = At + 1;
     if (Queue) {
-      Leaves[Bank * Queue + Oldest[Bank]] = At;
-      Oldest[Bank] = Oldest[Bank] + 1 == Queue ? 0 : Oldest[Bank] + 1;
+      Queued[Bank * queueRing() + Oldest[Bank]] = {Now + SeenAfter,
+                                                   At + SeenAfter + 1};
+      Oldest[Bank] = Oldest[Bank] + 1 == queueRing() ? 0 : Oldest[Bank] + 1;
     }
     return At;
   }
+  /// A line has left the queue behind \p Bank.
+  void dequeued(uint32_t Bank) { --Waiting[Bank]; }
+  /// The line of \p Address comes from below, and is there for its first load
+  /// at \p Then: the bank fills it, and gives it to \p Loads.
+  void fill(uint32_t Address, uint64_t Then, size_t Loads) {
+    if (SeesDequeues)
+      FreeAt[bankOf(Address)] = std::max(FreeAt[bankOf(Address)], Then + Loads);
+  }
 
 private:
-  uint32_t bankOf(uint32_t Address) const {
-    return Address / TimingLineBytes % Banks;
+  /// From a line's being accepted until its bank sees it in the queue.
+  static constexpr uint32_t SeenAfter = 3;
+  struct QueuedLine {
+    uint64_t From = 0, Until = 0; ///< seen in the queue
+  };
+  /// A bank has not seen those that it accepted in the last cycles.
+  uint32_t queueRing() const { return Queue + SeenAfter - 1; }
+  /// When a line leaves the queue behind \p Bank that the bank sees full at
+  /// \p Now; 0 if it does not.
+  uint64_t seesFullUntil(uint32_t Bank, uint64_t Now) const {
+    uint64_t First = 0;
+    uint32_t Seen = 0;
+    for (uint32_t N = 0; N != queueRing(); ++N) {
+      const QueuedLine &L = Queued[Bank * queueRing() + N];
+      if (L.From <= Now && Now < L.Until)
+        First = Seen++ ? std::min(First, L.Until) : L.Until;
+    }
+    return Seen < Queue ? 0 : First;
   }
-  uint32_t Banks, Queue;
-  std::vector<uint64_t> FreeAt; ///< by bank
-  std::vector<uint64_t> Leaves; ///< by bank, a ring of the last that leave
-  std::vector<uint32_t> Oldest; ///< by bank, in its ring
+
+  uint32_t Banks, Queue, Most;
+  bool SeesDequeues;
+  std::vector<uint64_t> FreeAt;   ///< by bank
+  std::vector<QueuedLine> Queued; ///< by bank, a ring of the last ones
+  std::vector<uint32_t> Oldest;   ///< by bank, in its ring
+  std::vector<uint32_t> Waiting;  ///< by bank: lines, if SeesDequeues
   uint64_t PortAt = 0;
 };
 
@@ -155,12 +261,19 @@ struct WarpTime {
   uint64_t Decoded = 0;
   CoreCycle FetchWhy = CoreCycle::Fetch;
   uint32_t CodeLine = NoLine; ///< of its last instruction
+  Arrival CodeCame;           ///< of that line, if FetchWhy is the link
 
   /// The next instruction is decoded at \p Then at the earliest.
   void decodeNotBefore(uint64_t Then, CoreCycle Why) {
     Fetched = std::max(Fetched, Then);
     Decoded = Fetched;
     FetchWhy = Why;
+  }
+  /// Nor before its line of code is there.
+  void decodeNotBefore(const Arrival &OfCode) {
+    decodeNotBefore(OfCode.At,
+                    OfCode.crossesLink() ? CoreCycle::Link : CoreCycle::Fetch);
+    CodeCame = OfCode;
   }
 
   static constexpr uint32_t NoLine = ~0U;
@@ -175,20 +288,22 @@ public:
   using WarpTime::State;
 
   /// \p Traces by warp. \p AsksForCode: its code comes from an instruction
-  /// cache, where not every fetch hits.
+  /// cache, where not every fetch hits. \p ReportsDequeues: as of
+  /// MemorySystem::reportsDequeues().
   CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
             const std::vector<TraceBuffer *> &Traces, unsigned Barriers,
-            bool AsksForCode);
+            bool AsksForCode, bool ReportsDequeues);
 
-  /// \p Observers are told from now on, as of number \p Own; null for nobody.
+  /// Notifies \p Observers from now on, as of number \p Own; null for none.
   void watch(const TimeWatch *Observers, unsigned Own) {
     Watch = Observers;
     Number = Own;
   }
 
-  /// A run of the program \p Ops begins at \p Now. Its first word is the
-  /// \p FirstWord th of its line.
-  void begin(const std::vector<OpInfo> &Ops, uint32_t FirstWord, uint64_t Now);
+  /// A run of the program \p Ops begins at \p Now, and is launched at
+  /// \p LaunchedAt. Its first word is the \p FirstWord th of its line.
+  void begin(const std::vector<OpInfo> &Ops, uint32_t FirstWord, uint64_t Now,
+             uint64_t LaunchedAt);
 
   /// Goes on to the next request, or to the trace's end.
   void advance();
@@ -196,6 +311,15 @@ public:
   State state() const { return IsAlone ? Now : Presented; }
   /// Whether no warp has anything left that is known.
   bool isIdle() const;
+  /// When the first access that has issued and waits in front of the LSU
+  /// begins.
+  Turn frontTurn() const { return Turn(FrontAt); }
+  void beginFront(MemorySystem &Memory);
+  /// What waits there is dropped.
+  void drop() {
+    InFront.clear();
+    FrontAt = Turn::Never;
+  }
   /// When it makes its request; never while that has to wait.
   Turn turn() const {
     if (!IsAlone)
@@ -224,11 +348,11 @@ public:
   /// its turn is now when one will be free. Returns whether it did.
   bool access(MemorySystem &Memory);
   /// An answer of memory. Goes on, if it was what the core needed.
-  void answer(uint32_t Tag, uint64_t Then);
+  void answer(const Answer &A);
   /// The line that State::Fetch wants, numbered from the program's first.
   uint32_t wantedLine() const { return Words[0]; }
   /// It comes at \p Then for \p Warp, and for good if \p ForGood says so.
-  void fetched(unsigned Warp, uint32_t Line, uint64_t Then, bool ForGood);
+  void fetched(unsigned Warp, uint32_t Line, const Arrival &Then, bool ForGood);
   uint32_t barrier() const { return Words[0]; }
   uint32_t barrierCount() const { return Words[1]; }
   /// The request of any other state has been granted at \p Then, which is not
@@ -284,6 +408,15 @@ private:
     Spent.Cycles[size_t(Why)] += Later - F.Next;
     F.Next = Later;
   }
+  /// Waits until \p Then for what came as \p Came says; the cycles that are not
+  /// the link's are for \p Why.
+  void waitFor(uint64_t &From, uint64_t Then, const Arrival &Came,
+               CoreCycle Why) {
+    Came.divide(From, Then, [&](bool IsLink, uint64_t End) {
+      Spent.Cycles[size_t(IsLink ? CoreCycle::Link : Why)] += End - From;
+      From = End;
+    });
+  }
   const WarpTime &of(unsigned Warp) const {
     return Warp == Current ? *this : Others[Warp];
   }
@@ -292,8 +425,22 @@ private:
   bool isInCode(WarpTime &W, uint32_t Instruction) const;
   bool waitForOperands(Front &F, const OpInfo &O);
   bool waitUntilQuiet();
+  /// When an access can issue: at once while there is room in front of the LSU.
+  uint64_t lsuFreeAt() const {
+    if (Timing.LsuFront == 0)
+      return UnitFree[size_t(Port::Lsu)];
+    if (InFront.size() >= Timing.LsuFront)
+      return Turn::Never;
+    const UnitQueue &Q = Queues[size_t(Port::Lsu)];
+    return Q.Begins[(Q.Next + InFront.size()) % Q.Begins.size()];
+  }
+  /// Whether an access issues if nobody knows yet when it can begin.
+  bool waitsInFront() const {
+    return Timing.LsuFront && L1Banks.seesDequeues();
+  }
   void waitForUnit(const OpInfo &O) {
-    waitUntil(UnitFree[size_t(O.On)], CoreCycle::Unit);
+    waitUntil(O.On == Port::Lsu ? lsuFreeAt() : UnitFree[size_t(O.On)],
+              CoreCycle::Unit);
     waitUntil(SlotAt, CoreCycle::Slot);
   }
   /// Whether an access needs a place among those in flight.
@@ -302,11 +449,7 @@ private:
   }
   unsigned firstPlace() const;
   /// When a place among the accesses in flight is free; Turn::Never if unknown.
-  uint64_t placeFreeAt(unsigned Place) const {
-    const uint64_t Answered = InFlight.readyAt(Place);
-    return Answered == Turn::Never || Answered == 0 ? Answered
-                                                    : Answered + Timing.LsuHold;
-  }
+  uint64_t placeFreeAt(unsigned Place) const { return InFlight.readyAt(Place); }
   size_t placeOf(const OpInfo &O, uint64_t Begin) const;
   uint64_t unitFreeAt(const OpInfo &O, uint64_t Now) const;
   bool beginsAtOnce(uint64_t Now, const OpInfo &O);
@@ -330,11 +473,26 @@ private:
   unsigned advancePlain(const OpInfo *Run, unsigned Position, unsigned End);
   bool advanceOne(const OpInfo &O);
   bool advanceParked(const OpInfo &O);
-  uint64_t localAccess(const OpInfo &O, AccessWord A);
+  uint64_t localAccess(const OpInfo &O, unsigned Warp, AccessWord A,
+                       uint64_t Begun, unsigned Place);
+  uint64_t setLocal(WarpTime &W, const OpInfo &O, uint64_t Last);
+  uint64_t delayBehind(unsigned Conflicts, uint64_t Begun);
+  uint64_t beginAccess(uint64_t Free) const;
+  void endAccess(uint64_t Sent, const OpInfo &O);
+  bool bankIsFull(std::span<const uint32_t> Needed) const;
+  void beginFrontAt(uint64_t Then);
+  uint64_t begin(MemorySystem &Memory, const OpInfo &O, unsigned Warp,
+                 AccessWord A, uint64_t Begun, unsigned Place);
+  bool waitForAccess(uint64_t Then);
   const DataCache::Line *findInL1(uint32_t Address, uint64_t Now,
                                   unsigned Place);
-  void fillL1(unsigned Place, uint64_t Then);
-  void setLoaded(WarpTime &W, const OpInfo &O, uint64_t Done);
+  uint64_t load(MemorySystem &Memory, unsigned Place, CacheRequest R);
+  uint64_t leave(uint64_t Then, bool IsLoad);
+  void keepForFill(uint64_t Ready);
+  void lineComes(const Answer &A);
+  void lineDequeued(uint32_t Bank, uint64_t Then);
+  void accessDone(unsigned Place);
+  void setLoaded(unsigned Warp, const OpInfo &O, const Arrival &Done);
   static void setReady(WarpTime &W, unsigned Register, uint64_t Then,
                        CoreCycle Why) {
     if (Register == SinkRegister)
@@ -352,16 +510,8 @@ private:
   // Several warps.
   void advanceInTurn(uint64_t Until);
   uint64_t earliest(WarpTime &W);
-  /// A warp that shares the issue slots.
-  struct SlotWarp {
-    unsigned Warp;
-    uint64_t DecodedAt; ///< from then on slots are given to it
-    uint64_t ReadyAt;   ///< when it can use one; Turn::Never if unknown
-    uint64_t FullAt;    ///< from then on it keeps the decoder; see fullAt()
-  };
-  std::pair<unsigned, uint64_t> firstInTurn() const;
   uint64_t fullAt(const WarpTime &W) const;
-  void holdDecoder();
+  void holdDecoder(unsigned Shared);
   uint64_t earliestIssue(const WarpTime &W, const RunRecord &R) const;
   bool atSpawn(const WarpTime &W) const;
   void advanceFront();
@@ -369,8 +519,8 @@ private:
   void arrive(const OpInfo &O, uint32_t Barrier, uint32_t Count);
 
   const CoreTiming Timing; ///< LsuQueue is that of all warps
-  const uint32_t Unit;     ///< as memory knows it
-  const bool IsAlone;      ///< there is one warp
+  const MemoryPort ToMemory;
+  const bool IsAlone; ///< there is one warp
   const bool AsksForCode;
   /// Whether the front end always has the next instruction, but behind a branch
   /// or a change of lanes, nobody waits in front of a unit, and there is one
@@ -379,16 +529,21 @@ private:
   const std::vector<OpInfo> *Ops = nullptr;
   /// When lines of code were there that stay in the instruction cache;
   /// Turn::Never of others. Empty without that cache.
-  std::vector<uint64_t> CodeReady;
+  std::vector<Arrival> CodeReady;
   uint32_t FirstWord = 0; ///< see begin()
 
   std::vector<WarpTime> Others; ///< by warp; not used for the current one
   unsigned Current = 0;
-  unsigned LastIssued = 0;       ///< a warp: the others come first
-  std::vector<SlotWarp> Sharing; ///< with IssueInTurn; reused
-  unsigned Holder = 0;           ///< the warp that keeps the decoder from Held
-  uint32_t Held = 0;             ///< warps, as bits
-  /// When the current warp's slot comes, with IssueInTurn.
+  unsigned LastIssued = 0; ///< a warp: the others come first
+  static constexpr unsigned MostWarps = 32;
+  /// Warps that share the issue slots, and by their places when each keeps the
+  /// decoder (see fullAt()): those that holdDecoder() is told of.
+  std::array<WarpToIssue, MostWarps> Sharing{};
+  std::array<uint64_t, MostWarps> FullAts{};
+  unsigned Holder = 0; ///< the warp that keeps the decoder from Held
+  uint32_t Held = 0;   ///< warps, as bits
+  IssuePolicy IssueOrder;
+  /// When the current warp's slot comes, if it was given one.
   uint64_t SlotAt = 0;
   State Presented = State::Starved;
   Turn InTurn;
@@ -403,6 +558,12 @@ private:
   struct UnitQueue {
     std::vector<uint64_t> Begins;
     size_t Next = 0;
+
+    uint64_t oldest() const { return Begins[Next]; }
+    void add(uint64_t Begun) {
+      Begins[Next] = Begun;
+      Next = Next + 1 == Begins.size() ? 0 : Next + 1;
+    }
   };
   std::array<UnitQueue, size_t(Port::Count)> Queues;
   /// When the places of a unit that operations keep (OpInfo::Hold) are free.
@@ -416,20 +577,62 @@ private:
     }
   };
   std::array<UnitPlaces, size_t(Port::Count)> Places;
+  /// When all words of the last accesses to the data cache have left the lanes.
+  UnitQueue LeftForCache;
+  /// An access to local memory that later ones may still delay.
+  struct LocalWait {
+    const OpInfo *Op = nullptr;
+    unsigned Warp = 0, Place = 0, Conflicts = 1;
+    uint64_t Last = 0; ///< when its bank gives the last word
+  };
+  /// The last accesses to local memory, in a ring: those whose words lanes
+  /// still keep, and the one behind them.
+  std::vector<LocalWait> LocalWaits;
+  size_t OldestLocal = 0;
   /// A set of lines for each place, and behind these one for all accesses that
   /// need none.
   LineWaits InFlight;
-  struct Access {
+  struct LoadInFlight {
     const OpInfo *Op = nullptr;
     unsigned Warp = 0;
-    uint64_t Serial = 0;          ///< as observers know it
-    std::vector<uint32_t> Misses; ///< lines that the data cache gets
-    uint64_t Writes = 0;          ///< to memory, that these lines have seen
+    uint64_t Serial = 0; ///< as observers know it
   };
-  std::vector<Access> Accesses; ///< by place
-  uint64_t LastDone = 0; ///< of the accesses to memory whose end is known
+  std::vector<LoadInFlight> Accesses;           ///< by place
+  using AccessLines = std::array<uint32_t, 32>; ///< more than AccessWord::Lines
+  AccessLines Lines{};                          ///< of the access that begins
+  /// An access that has issued and waits in front of the LSU for something of
+  /// which nobody knows yet when it comes.
+  struct FrontAccess {
+    const OpInfo *Op;
+    unsigned Warp;
+    uint64_t Serial, IssuedAt;
+    AccessWord Word;
+    AccessLines Lines;
+  };
+  std::deque<FrontAccess> InFront;
+  uint64_t FrontAt = Turn::Never;
+  Arrival LastDone; ///< of the accesses to memory whose end is known
+  /// By warp and register: how its value came, if that is why it waits.
+  std::vector<std::array<Arrival, NumRegisters>> Loaded;
+  /// \name Kinds of tickets beside those of InFlight
+  /// @{
+  static constexpr uint32_t LineTicket = 1U << 30; ///< and a line of L1Misses
+  static constexpr uint32_t DequeueTicket = 2U << 30; ///< and a bank of L1Banks
+  /// @}
   DataCache L1;
   DataCacheBanks L1Banks;
+  LinesInFlight L1Misses;
+  /// When each of the lines that loads may have in flight is free.
+  std::vector<uint64_t> LineFree;
+  size_t NextLine = 0; ///< of these, that the next one takes
+  /// When lines from memory take the data cache, with DcacheFillCycles.
+  std::deque<uint64_t> FillTurns;
+  /// Lines that the present access has fetched and that come at a known time.
+  struct Fill {
+    uint32_t Address;
+    Arrival Then;
+  };
+  std::vector<Fill> Fills;
 
   CoreTime Spent;
   const TimeWatch *Watch = nullptr;

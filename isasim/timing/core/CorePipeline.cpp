@@ -13,15 +13,16 @@ bool CoreClock::isInCode(WarpTime &W, uint32_t Instruction) const {
   const uint32_t Line = lineOfCode(Instruction);
   if (!AsksForCode || Line == W.CodeLine)
     return true;
-  if (CodeReady[Line] == Turn::Never) {
+  const Arrival &Ready = CodeReady[Line];
+  if (Ready.At == Turn::Never) {
     W.Now = State::Fetch;
     W.At = std::max(Next, W.Fetched);
     W.Words[0] = Line;
     return false;
   }
   W.CodeLine = Line;
-  if (CodeReady[Line] > W.Fetched)
-    W.decodeNotBefore(CodeReady[Line], CoreCycle::Fetch);
+  if (Ready.At > W.Fetched)
+    W.decodeNotBefore(Ready);
   return true;
 }
 
@@ -75,7 +76,10 @@ void CoreClock::startRun(WarpTime &W, const RunRecord &R) {
   for (const uint8_t R :
        {O.Sources[2], O.Sources[1], O.Sources[0], O.HighRd, O.Rd})
     Latest = Ready[R] == Then ? R : Latest;
-  waitUntil(F, Then, ReadyWhy[Latest]);
+  if (ReadyWhy[Latest] == CoreCycle::Link)
+    waitFor(F.Next, Then, Loaded[Current][Latest], CoreCycle::Memory);
+  else
+    waitUntil(F, Then, ReadyWhy[Latest]);
   return true;
 }
 
@@ -85,7 +89,7 @@ bool CoreClock::waitUntilQuiet() {
     Now = State::Answer;
     return false;
   }
-  waitUntil(Quiet, CoreCycle::Fence);
+  waitFor(Next, Quiet, LastDone, CoreCycle::Fence);
   return true;
 }
 
@@ -113,7 +117,7 @@ size_t CoreClock::placeOf(const OpInfo &O, uint64_t Begin) const {
 uint64_t CoreClock::unitFreeAt(const OpInfo &O, uint64_t Now) const {
   const auto On = size_t(O.On);
   if (Timing.UnitQueue && O.On != Port::Lsu)
-    return Queues[On].Begins[Queues[On].Next];
+    return Queues[On].oldest();
   uint64_t Free = UnitFree[On];
   if (O.Hold)
     Free = std::max(Free, Places[On].FreeAt[placeOf(O, std::max(Now, Free))]);
@@ -151,11 +155,8 @@ inline bool CoreClock::beginsAtOnce(uint64_t Now, const OpInfo &O) {
   }
   UnitFree[On] = Begun + O.Interval;
   UnitsBusyUntil = std::max(UnitsBusyUntil, UnitFree[On]);
-  if (Timing.UnitQueue && O.On != Port::Lsu) {
-    UnitQueue &Q = Queues[On];
-    Q.Begins[Q.Next] = Begun;
-    Q.Next = Q.Next + 1 == Timing.UnitQueue ? 0 : Q.Next + 1;
-  }
+  if (Timing.UnitQueue && O.On != Port::Lsu)
+    Queues[On].add(Begun);
   return Begun;
 }
 
@@ -198,26 +199,76 @@ void CoreClock::finish(const OpInfo &O) {
     tell(&O);
 }
 
-/// Returns when it is done.
-uint64_t CoreClock::localAccess(const OpInfo &O, AccessWord A) {
-  const uint64_t Done = Next + Timing.LocalLatency +
-                        (A.Conflicts - 1) * Timing.LocalConflictCycles;
+/// When the LSU begins the access that issues at Next, which has a place from
+/// \p Free on. Those behind it follow in order.
+uint64_t CoreClock::beginAccess(uint64_t Free) const {
+  return Timing.LsuFront ? std::max({Next, UnitFree[size_t(Port::Lsu)], Free})
+                         : Next;
+}
+
+/// All words of the access \p O have left the LSU at \p Sent.
+void CoreClock::endAccess(uint64_t Sent, const OpInfo &O) {
+  UnitFree[size_t(Port::Lsu)] = Sent + O.Interval;
+  if (Timing.LsuFront)
+    Queues[size_t(Port::Lsu)].add(Sent);
+}
+
+/// The LSU begins \p O of \p Warp, which has place \p Place, at \p Begun.
+/// Returns when it is done, as far as is known: see delayBehind().
+uint64_t CoreClock::localAccess(const OpInfo &O, unsigned Warp, AccessWord A,
+                                uint64_t Begun, unsigned Place) {
   // A bank gives a word a cycle.
-  UnitFree[size_t(Port::Lsu)] =
-      Next + std::max<uint64_t>(A.Conflicts, O.Interval);
+  const uint64_t Words = (A.Conflicts - 1) * Timing.LocalConflictCycles;
+  uint64_t Last = Begun + Words, Sent = Begun + A.Conflicts - 1;
+  if (Timing.LaneBuffers) {
+    Last = delayBehind(A.Conflicts, Begun) + Words;
+    LocalWaits[OldestLocal] = {&O, Warp, Place, A.Conflicts, Last};
+    OldestLocal = OldestLocal + 1 == LocalWaits.size() ? 0 : OldestLocal + 1;
+    Sent = std::max(Begun, LocalWaits[OldestLocal].Last + 1);
+  }
+  endAccess(Sent, O);
   LocalConflicts += A.Conflicts - 1;
-  LocalLanes += Lanes;
-  setReady(O.Rd, Done + O.Latency, CoreCycle::Local);
-  setReady(O.HighRd, Done + O.Latency, CoreCycle::Local);
-  finish(O);
+  return setLocal(of(Warp), O, Last);
+}
+
+/// The banks of local memory give the last word of \p O of \p W at \p Last.
+uint64_t CoreClock::setLocal(WarpTime &W, const OpInfo &O, uint64_t Last) {
+  const uint64_t Done = Last + Timing.LocalLatency;
+  setReady(W, O.Rd, Done + O.Latency, CoreCycle::Local);
+  setReady(W, O.HighRd, Done + O.Latency, CoreCycle::Local);
   return Done;
+}
+
+/// An access to local memory begins at \p Begun, of whose lanes \p Conflicts
+/// meet in a bank. Returns when that is free for their last words: each lane
+/// keeps its order, and among lanes the lowest is first. So the words of lower
+/// lanes come before the last ones of the accesses that still wait.
+uint64_t CoreClock::delayBehind(unsigned Conflicts, uint64_t Begun) {
+  uint64_t Free = Begun;
+  for (LocalWait &W : LocalWaits) {
+    if (W.Last < Begun)
+      continue;
+    Free = std::max(Free, W.Last + 1);
+    const unsigned Before = std::min(Conflicts, W.Conflicts - 1);
+    if (Before == 0)
+      continue;
+    W.Last += Before;
+    const uint64_t Done = setLocal(of(W.Warp), *W.Op, W.Last);
+    if (W.Place != Timing.LsuQueue)
+      InFlight.begin(W.Place, Done);
+  }
+  return Free;
 }
 
 /// Waits until \p O has been fetched and its operands are there; false if
 /// nobody knows yet when that is.
 template <bool Ideal> inline bool CoreClock::reach(Front &F, const OpInfo &O) {
-  if constexpr (!Ideal)
-    waitUntil(F, F.Fetched, F.FetchWhy);
+  if constexpr (!Ideal) {
+    if (F.FetchWhy == CoreCycle::Link)
+      waitFor(F.Next, F.Fetched, CodeCame, CoreCycle::Fetch);
+    else
+      waitUntil(F, F.Fetched, F.FetchWhy);
+  }
   return waitForOperands(F, O);
 }
 
@@ -291,14 +342,18 @@ bool CoreClock::advanceOne(const OpInfo &O) {
   case OpClass::Load:
   case OpClass::Store:
   case OpClass::Atomic: {
-    waitForUnit(O);
+    const bool HasRoom = lsuFreeAt() != Turn::Never;
+    if (HasRoom)
+      waitForUnit(O);
     const auto A = std::bit_cast<AccessWord>(Trace->word());
-    if (A.Lines == 0 && !needsPlace(O, A)) {
+    if (A.Lines == 0 && !needsPlace(O, A) && InFront.empty()) {
       Trace->popWords(1);
-      localAccess(O, A);
+      LocalLanes += Lanes;
+      localAccess(O, Current, A, beginAccess(0), Timing.LsuQueue);
+      finish(O);
       return true;
     }
-    At = Next;
+    At = HasRoom ? Next : Turn::Never;
     Waiting = &O;
     Now = State::Access;
     return false;

@@ -198,6 +198,29 @@ TEST_F(FiveStagesTest, StoresWaitForTheCoresPort) {
   EXPECT_NEAR(double(Three - One), N * (2 * 5.0 + 16), N * 8.0);
 }
 
+// Release 2. The lines of a load follow one another in two cycles, and so do
+// their fills, which go before the next load's lines: 16 of them take 32 cycles
+// and the time in which a line comes. The RTL takes 86.
+TEST_F(FiveStagesTest, LinesThatMissInRelease2WaitBehindFills) {
+  Settings.Timing.Core = numbersOf(CorePreset::Vortex2025);
+  Settings.Timing.Core.DcacheKib = 16;
+  Settings.Timing.L2.FixedCycles = 61;
+  const Words Before = {lui(7, 0x100000), lui(8, 0x1000),
+                        encode(Op::RV_SLLI, {.Rd = 10, .Rs1 = 6, .Imm = 6}),
+                        encode(Op::RV_ADD, {.Rd = 7, .Rs1 = 7, .Rs2 = 10})};
+  Words Loads;
+  for (unsigned Rd = 12; Rd != 20; ++Rd)
+    Loads = Loads + Words{lw(Rd, 0, 7),
+                          encode(Op::RV_ADD, {.Rd = 7, .Rs1 = 7, .Rs2 = 8})};
+  const auto EachLoad = [&] {
+    return double(cost(20, Loads, Before) - cost(10, Loads, Before)) / 80;
+  };
+  EXPECT_NEAR(EachLoad(), 32 + 59, 2);
+  Settings.Timing.Core.LinesInFlight = 0;
+  Settings.Timing.Core.DcacheFillCycles = 0;
+  EXPECT_LT(EachLoad(), 55);
+}
+
 /// Single numbers, changed in what is otherwise `forwarding`.
 using CoreNumbersTest = ClockTest;
 

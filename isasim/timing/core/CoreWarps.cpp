@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fmt/format.h>
 #include <utility>
 
 namespace vorion::isasim {
@@ -46,8 +47,13 @@ uint64_t CoreClock::earliestIssue(const WarpTime &W, const RunRecord &R) const {
     // Behind the event, if it had parked.
     const auto A =
         std::bit_cast<AccessWord>(W.Trace->word(R.Count == 0 ? 1 : 0));
-    Then = std::max(Then, UnitFree[size_t(Port::Lsu)]);
-    return needsPlace(O, A) ? std::max(Then, placeFreeAt(firstPlace())) : Then;
+    Then = std::max(Then, lsuFreeAt());
+    if (!needsPlace(O, A))
+      return Then;
+    const uint64_t Free = placeFreeAt(firstPlace());
+    return Timing.LsuFront && (Free != Turn::Never || waitsInFront())
+               ? Then
+               : std::max(Then, Free);
   }
   case OpClass::Fence:
     return std::max(Then, quietAt());
@@ -84,31 +90,34 @@ uint64_t CoreClock::earliest(WarpTime &W) {
   return earliestIssue(W, W.Trace->front());
 }
 
-/// The warp that issues first, and when, where each cycle's slot is given in
-/// turn to one of the warps with a decoded instruction, whether or not it can
-/// issue (`timing.core.issue_in_turn`). {warps(), Turn::Never} if no warp can.
-std::pair<unsigned, uint64_t> CoreClock::firstInTurn() const {
-  const unsigned Count = warps();
-  const auto After = [&](unsigned Last, const SlotWarp &S) {
-    return (S.Warp + Count - Last - 1) % Count;
+/// Each cycle's slot is given in turn to one of the warps with a decoded
+/// instruction, whether or not it can issue. One that another warp starts needs
+/// no slot.
+IssueSlot IssueInTurn::firstSlot(uint64_t From, uint32_t Last,
+                                 std::span<const WarpToIssue> All) const {
+  IssueSlot Started;
+  for (const WarpToIssue &S : All)
+    if (S.DecodedAt == Turn::Never && S.ReadyAt < Started.Cycle)
+      Started = {S.Warp, S.ReadyAt};
+  const auto After = [&](uint32_t Previous, const WarpToIssue &S) {
+    return (S.Warp + Warps - Previous - 1) % Warps;
   };
-  unsigned Last = LastIssued;
-  for (uint64_t Begin = Next; Begin != Turn::Never;) {
+  for (uint64_t Begin = From; Begin < Started.Cycle;) {
     // Until another warp's instruction is decoded, the same warps take turns.
     uint64_t End = Turn::Never;
     unsigned Taking = 0;
-    for (const SlotWarp &S : Sharing)
+    for (const WarpToIssue &S : All)
       if (S.DecodedAt <= Begin)
         ++Taking;
       else
         End = std::min(End, S.DecodedAt);
-    std::pair<unsigned, uint64_t> First(Count, Turn::Never);
-    unsigned LastTaker = Last;
-    for (const SlotWarp &S : Sharing) {
+    IssueSlot First;
+    uint32_t LastTaker = Last;
+    for (const WarpToIssue &S : All) {
       if (S.DecodedAt > Begin)
         continue;
       unsigned Place = 0;
-      for (const SlotWarp &Other : Sharing)
+      for (const WarpToIssue &Other : All)
         Place +=
             Other.DecodedAt <= Begin && After(Last, Other) < After(Last, S);
       if (End != Turn::Never && (End - Begin - 1) % Taking == Place)
@@ -118,15 +127,38 @@ std::pair<unsigned, uint64_t> CoreClock::firstInTurn() const {
         continue;
       if (S.ReadyAt > Slot)
         Slot += (S.ReadyAt - Slot + Taking - 1) / Taking * Taking;
-      if (Slot < End && Slot < First.second)
+      if (Slot < End && Slot < First.Cycle)
         First = {S.Warp, Slot};
     }
-    if (First.first != Count)
-      return First;
+    if (First.Cycle != Turn::Never)
+      return First.Cycle < Started.Cycle ? First : Started;
     Last = LastTaker;
     Begin = End;
   }
-  return {Count, Turn::Never};
+  return Started;
+}
+
+IssueSlot IssuePolicy::first(uint64_t From, uint32_t Last,
+                             std::span<const WarpToIssue> All) const {
+  const IssueSlot S = ask([&](auto &P) { return P.first(From, Last, All); });
+  if (isOwn())
+    return S;
+  const IssueSlot Own = own().first(From, Last, All);
+  if (S.Cycle == Turn::Never && Own.Cycle == Turn::Never)
+    return S;
+  for (const WarpToIssue &W : All)
+    if (W.Warp == S.Warp && S.Cycle >= std::max(From, W.ReadyAt) &&
+        S.Cycle < Turn::Never)
+      return S;
+  notePolicyFault(
+      S.Cycle == Turn::Never
+          ? fmt::format("gives no warp of core {} a slot, expected one of "
+                        "those that can issue",
+                        Core)
+          : fmt::format("gives warp {} of core {} the slot of cycle {}, "
+                        "expected a warp that can issue then",
+                        S.Warp, Core, S.Cycle));
+  return Own;
 }
 
 /// When \p W has as many decoded instructions as its buffer holds, and one more
@@ -144,15 +176,15 @@ uint64_t CoreClock::fullAt(const WarpTime &W) const {
 
 /// The warp whose instruction waits in the decoder first keeps it until it
 /// issues: what others fetch later is not decoded.
-void CoreClock::holdDecoder() {
+void CoreClock::holdDecoder(unsigned Shared) {
   Held = 0;
   uint64_t FullAt = Turn::Never;
-  for (const SlotWarp &S : Sharing)
-    if (S.FullAt < FullAt) {
-      FullAt = S.FullAt;
-      Holder = S.Warp;
+  for (unsigned N = 0; N != Shared; ++N)
+    if (FullAts[N] < FullAt) {
+      FullAt = FullAts[N];
+      Holder = Sharing[N].Warp;
     }
-  for (SlotWarp &S : Sharing)
+  for (WarpToIssue &S : std::span(Sharing.data(), Shared))
     if (S.Warp != Holder && of(S.Warp).Decoded > FullAt) {
       Held |= 1U << S.Warp;
       S.DecodedAt = S.ReadyAt = Turn::Never;
@@ -179,7 +211,8 @@ void CoreClock::advanceInTurn(uint64_t Until) {
         FirstIsStarved = IsStarved;
       }
     };
-    Sharing.clear();
+    unsigned Shared = 0;
+    bool SomeStarved = false;
     for (unsigned K = 1; K <= Count; ++K) {
       const unsigned N = (LastIssued + K) % Count;
       WarpTime &W = of(N);
@@ -192,22 +225,34 @@ void CoreClock::advanceInTurn(uint64_t Until) {
       const bool IsStarved = !IsRequest && W.Trace->empty();
       // It waits for memory, or for a vx_wspawn.
       SomeWait |= Then == Turn::Never && !IsStarved;
-      if (!Timing.IssueInTurn || IsRequest ||
-          (W.Trace->empty() ? W.Ended : atSpawn(W)))
-        Consider(N, Then, IsRequest, IsStarved);
-      else
-        Sharing.push_back({N, std::max(Next, W.Fetched), Then,
-                           IsStarved ? Turn::Never : fullAt(W)});
+      if (IsRequest) {
+        Consider(N, Then, true, false);
+        continue;
+      }
+      if (IsStarved && W.Ended)
+        continue;
+      SomeStarved |= IsStarved;
+      // Who starts another warp's matters only to those who give slots.
+      const bool IsStarted =
+          IssueOrder.givesSlots() && !IsStarved && atSpawn(W);
+      Sharing[Shared] = {N, IsStarted ? Turn::Never : std::max(Next, W.Fetched),
+                         Then};
+      if (Timing.IssueInTurn)
+        FullAts[Shared] = IsStarved || IsStarted ? Turn::Never : fullAt(W);
+      ++Shared;
     }
-    holdDecoder();
-    const auto [Taker, Slot] = firstInTurn();
-    if (Taker != Count)
-      Consider(Taker, Slot, false, false);
+    if (Timing.IssueInTurn)
+      holdDecoder(Shared);
+    const std::span All(Sharing.data(), Shared);
+    const IssueSlot Slot = IssueOrder.first(Next, LastIssued, All);
+    if (Slot.Cycle != Turn::Never)
+      Consider(Slot.Warp, Slot.Cycle, false, false);
     // Whether a warp goes on or has ended decides who shares the slots.
-    for (const SlotWarp &S : Sharing)
-      if (of(S.Warp).Trace->empty() && S.DecodedAt != Turn::Never)
-        Consider(S.Warp, S.DecodedAt, false, true);
-    SlotAt = First == Taker ? Slot : 0;
+    if (SomeStarved)
+      for (const WarpToIssue &S : All)
+        if (of(S.Warp).Trace->empty() && S.DecodedAt != Turn::Never)
+          Consider(S.Warp, S.DecodedAt, false, true);
+    SlotAt = 0;
     Presented = State::Starved;
     InTurn = Turn(FirstAt, !FirstIsStarved);
     if (First == Count || FirstIsStarved)
@@ -222,11 +267,14 @@ void CoreClock::advanceInTurn(uint64_t Until) {
       return;
     }
     LastIssued = First;
+    IssueOrder.issued(First, FirstAt);
+    const bool IsSpawn = atSpawn(*this);
+    if (IssueOrder.givesSlots() && !IsSpawn)
+      SlotAt = Slot.Cycle;
     if (Held && First == Holder)
       for (unsigned N = 0; N != Count; ++N)
         if (Held >> N & 1)
           of(N).decodeNotBefore(SlotAt + 1, CoreCycle::Fetch);
-    const bool IsSpawn = atSpawn(*this);
     InRun = true;
     advanceFront();
     if (Now != State::Starved && !Blocked) {

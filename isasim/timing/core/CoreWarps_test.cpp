@@ -1,5 +1,6 @@
 /// The clock of cores with several warps.
 #include "testing/TimedPrograms.h"
+#include "timing/core/CoreClock.h"
 
 using namespace vorion;
 using namespace vorion::isasim;
@@ -68,11 +69,72 @@ TEST_F(CoreWarpsTest, IssueSlotsGoInTurnToWarpsThatWait) {
 
 TEST_F(CoreWarpsTest, EachWarpBringsPlacesForItsLoads) {
   preset(CorePreset::Vortex5Stage);
+  Settings.Timing.Core.LocalLatency = 8;
   const Words Loads = {lw(20, 0, 8), lw(21, 0, 8), lw(22, 0, 8), lw(23, 0, 8)};
   EXPECT_NEAR(double(costOnAll(4, N, Loads)), 4.0 * N * 5, 20);
   // Without them four places serve all warps, 8 cycles each.
   Settings.Timing.Core.LsuQueuePerWarp = 0;
   EXPECT_NEAR(double(costOnAll(4, N, Loads)), 4 * 4.0 * N * 8 / 4, 40);
+}
+
+// Accesses that wait for a place have issued: what is behind them goes on.
+TEST_F(CoreWarpsTest, AccessesWaitInFrontOfTheirUnit) {
+  preset(CorePreset::Vortex5Stage);
+  Settings.Timing.Core.DcacheKib = 16;
+  Settings.Timing.L2.FixedCycles = 300;
+  // Five loads of other lines, of which four have places, then additions that
+  // take as long as two of them.
+  Words Body;
+  for (int32_t Load = 0; Load != 5; ++Load)
+    Body = Body + Words{lw(20 + static_cast<unsigned>(Load), Load * 128, 7)};
+  Body = Body + repeat(120, {addi(12, 6, 0)});
+  EXPECT_NEAR(double(cost(1, Body)), 125 * 5, 30);
+  Settings.Timing.Core.LsuFront = 0;
+  EXPECT_NEAR(double(cost(1, Body)), 125 * 5 + 300, 50);
+}
+
+// The port is busy until 10. What a bank accepts right behind two stores goes
+// on, because it does not see them in its queue yet.
+TEST(DataCacheBanksTest, ABankSeesItsQueueThreeCyclesLater) {
+  DataCacheBanks Banks(2, 2, 2, false);
+  Banks.clear();
+  for (unsigned N = 0; N != 10; ++N)
+    Banks.send(TimingLineBytes, 0);
+  for (const uint64_t N : {0, 1}) {
+    EXPECT_EQ(Banks.accept(0, N), N);
+    EXPECT_EQ(Banks.send(0, N), 10 + N);
+  }
+  EXPECT_EQ(Banks.accept(0, 2), 2U);
+  EXPECT_EQ(Banks.accept(0, 3), 3U);
+  EXPECT_EQ(Banks.accept(0, 4), 10 + 4U);
+}
+
+// 16 words of a bank, of both warps in turn by lane: both loads have their last
+// word after 32 cycles and not the first one's after 16. The RTL of May 2023
+// takes 25 and 40 cycles a load.
+TEST_F(CoreWarpsTest, LowerLanesOfALaterAccessGoFirst) {
+  preset(CorePreset::Vortex5Stage);
+  const Words OneBank = {csrr(9, CSR_THREAD_ID),
+                         encode(Op::RV_SLLI, {.Rd = 9, .Rs1 = 9, .Imm = 6}),
+                         lui(8, 0xffff0000),
+                         encode(Op::RV_ADD, {.Rd = 8, .Rs1 = 8, .Rs2 = 9}),
+                         encode(Op::RV_SW, {.Rs1 = 8, .Rs2 = 8})};
+  const auto EachLoad = [&](unsigned Warps, const Words &Load) {
+    Settings.WarpsPerCore = Warps;
+    const auto Cycles = [&](unsigned Loads) {
+      return runWhole(onAllWarps(OneBank + repeat(Loads, Load))).Cycles;
+    };
+    return double(Cycles(2 * N) - Cycles(N)) / N;
+  };
+  const Words Chained = {lw(8, 0, 8)};
+  EXPECT_NEAR(EachLoad(1, Chained), 25, 0.5);
+  EXPECT_NEAR(EachLoad(2, Chained), 40, 1);
+  // A bank gives a word a cycle all the same.
+  const Words Four = {lw(10, 0, 8), lw(11, 0, 8), lw(12, 0, 8), lw(13, 0, 8)};
+  EXPECT_NEAR(EachLoad(1, Four), 4 * 16, 0.5);
+  EXPECT_NEAR(EachLoad(2, Four), 4 * 32, 0.5);
+  Settings.Timing.Core.LaneBuffers = 0;
+  EXPECT_NEAR(EachLoad(2, Chained), 32, 1);
 }
 
 TEST_F(CoreWarpsTest, AFullBufferKeepsTheDecoderFromOtherWarps) {

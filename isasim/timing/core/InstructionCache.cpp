@@ -20,21 +20,21 @@ void InstructionCache::begin(uint32_t Low, uint32_t Lines) {
   Misses = 0;
 }
 
-void InstructionCache::fill(uint32_t Line, uint64_t Then) {
+void InstructionCache::fill(uint32_t Line, const Arrival &Then) {
   Way *Set = setOf(Line);
   *std::min_element(Set, Set + WaysOfSet, [](const Way &A, const Way &B) {
     return A.Used < B.Used;
   }) = {Line + 1, ++Uses, Then};
 }
 
-std::optional<uint64_t> InstructionCache::fetch(MemorySystem &Memory,
-                                                uint32_t Line, uint64_t Now,
-                                                Waiter Who) {
+std::optional<Arrival> InstructionCache::fetch(MemorySystem &Memory,
+                                               uint32_t Line, uint64_t Now,
+                                               Waiter Who) {
   Way *Set = setOf(Line);
   for (Way *W = Set; W != Set + WaysOfSet; ++W)
     if (W->Number == Line + 1) {
       W->Used = ++Uses;
-      return std::max(Now, W->ReadyAt);
+      return W->Ready.At > Now ? W->Ready : Arrival{Now};
     }
   for (Arrived &A : Asked)
     if (A.Line == Line && !A.Who.empty()) {
@@ -49,9 +49,9 @@ std::optional<uint64_t> InstructionCache::fetch(MemorySystem &Memory,
     Free = Asked.insert(Free, Arrived());
   const auto Tag = static_cast<uint32_t>(Free - Asked.begin());
   const auto Then =
-      Memory.access(Port.Cluster, {.Now = Now,
-                                   .Address = CodeLow + Line * TimingLineBytes,
-                                   .From = {Port.Unit, Tag}});
+      Memory.access(Port, {.Now = Now,
+                           .Address = CodeLow + Line * TimingLineBytes,
+                           .From = {Port.Unit, Tag}});
   if (Then)
     fill(Line, *Then);
   else
@@ -59,10 +59,10 @@ std::optional<uint64_t> InstructionCache::fetch(MemorySystem &Memory,
   return Then;
 }
 
-InstructionCache::Arrived InstructionCache::answer(uint32_t Tag,
-                                                   uint64_t Then) {
-  fill(Asked[Tag].Line, Then);
-  return {Asked[Tag].Line, std::exchange(Asked[Tag].Who, {})};
+InstructionCache::Arrived InstructionCache::answer(const Answer &A) {
+  Arrived &Of = Asked[A.To.Tag];
+  fill(Of.Line, A.arrival());
+  return {Of.Line, std::exchange(Of.Who, {})};
 }
 
 bool InstructionCache::keeps(uint32_t Line) const {

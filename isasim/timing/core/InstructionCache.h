@@ -28,14 +28,14 @@ public:
   };
   /// When the line is or was there. Nothing if memory has to answer first:
   /// then answer() names who asked. Called in the order of time.
-  std::optional<uint64_t> fetch(MemorySystem &Memory, uint32_t Line,
-                                uint64_t Now, Waiter Who);
+  std::optional<Arrival> fetch(MemorySystem &Memory, uint32_t Line,
+                               uint64_t Now, Waiter Who);
   /// An answer of memory; returns the line and who waited for it.
   struct Arrived {
     uint32_t Line;
     std::vector<Waiter> Who;
   };
-  Arrived answer(uint32_t Tag, uint64_t Then);
+  Arrived answer(const Answer &A);
 
   /// Whether a line that is there stays until the run's end, because the
   /// program has no more lines in its set than there are ways.
@@ -46,10 +46,11 @@ public:
 private:
   struct Way {
     uint32_t Number = 0; ///< of the line, plus 1; 0 for none
-    uint64_t Used = 0, ReadyAt = 0;
+    uint64_t Used = 0;
+    Arrival Ready;
   };
   Way *setOf(uint32_t Line) { return &Ways[size_t{Line % Sets} * WaysOfSet]; }
-  void fill(uint32_t Line, uint64_t Then);
+  void fill(uint32_t Line, const Arrival &Then);
 
   const MemoryPort Port;
   const uint32_t WaysOfSet, Sets;

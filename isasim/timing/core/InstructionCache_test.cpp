@@ -53,6 +53,19 @@ TEST_F(CodeTest, EveryLineMissesOnceAndEveryMissIsWaitedFor) {
   }
 }
 
+TEST_F(CodeTest, CodeWaitsForTheLink) {
+  const Words Body = additions(10 * WordsOfLine);
+  const TimeReport None = with(16, Body);
+  Settings.Timing.Link = {.ToL2Ns = 100, .FromL2Ns = 40};
+  const TimeReport R = with(16, Body);
+  const auto Cycles = static_cast<double>(misses(R)) * 140 * R.ClockMhz / 1000;
+  EXPECT_NEAR(static_cast<double>(of(R, CoreCycle::Link)), Cycles,
+              3.0 * static_cast<double>(misses(R)));
+  EXPECT_NEAR(static_cast<double>(of(R, CoreCycle::Fetch)),
+              static_cast<double>(of(None, CoreCycle::Fetch)),
+              3.0 * static_cast<double>(misses(R)));
+}
+
 TEST_F(CodeTest, ALoopThatDoesNotFitMissesInEveryRound) {
   Settings.Timing.Socket.IcacheWays = 1;
   // 1 KiB has 16 lines. Of a loop of 17, 2 share a place.

@@ -42,8 +42,10 @@ Expected<Success> check(const TimingTable &Table,
 }
 
 Controller::Controller(const TimingTable &DeviceTable,
-                       const ControllerOptions &Chosen)
-    : Table(DeviceTable), Options(Chosen),
+                       const ControllerOptions &Chosen,
+                       std::unique_ptr<DramScheduler> Plugged)
+    : Table(DeviceTable), Options(Chosen), Schedule({}, std::move(Plugged)),
+      CapsRows(Schedule.ask([](const auto &S) { return S.capsRows(); })),
       BurstsOfLine(burstsOfLine(Table, Options)),
       Above(Options.DrainAbove * Options.WriteQueue / 100),
       // An empty queue ends a drain, however small it is.
@@ -232,9 +234,13 @@ void Controller::issue(std::vector<Reply> &Replies) {
 
   switch (C.What) {
   case Command::Activate:
-    if (C.PlacePromoted == None)
-      promote(C.Entry);
+    promote(C.Entry);
     open(C.Bank, Entries[C.Entry].Row, At);
+    if (Table.SecondActivateWithin)
+      Half = {At + 1, At + Table.SecondActivateWithin, C.Bank};
+    break;
+  case Command::Activate2:
+    Half.reset();
     break;
   case Command::Precharge:
     close(C.Bank);
@@ -261,20 +267,23 @@ void Controller::issue(std::vector<Reply> &Replies) {
   }
 }
 
-/// The burst for which a row is opened is taken out of its queue, so that
-/// nobody closes the row before it.
+/// The burst for which a row is opened is taken out of its queue. Nobody closes
+/// the row before it.
 void Controller::promote(uint32_t Which) {
   Promoted.push_back(Which);
+  Opened |= uint64_t{1} << Entries[Which].Bank;
   leaveQueue(Which);
 }
 
 void Controller::access(uint64_t At, std::vector<Reply> &Replies) {
   const uint32_t Which = Next.Entry;
-  if (Next.PlacePromoted == None)
-    leaveQueue(Which);
-  else
-    Promoted.erase(Promoted.begin() + Next.PlacePromoted);
   Entry &E = Entries[Which];
+  if (Next.PlacePromoted == None) {
+    leaveQueue(Which);
+  } else {
+    Promoted.erase(Promoted.begin() + Next.PlacePromoted);
+    Opened &= ~(uint64_t{1} << E.Bank);
+  }
   Bank &B = Banks[E.Bank];
   if (++B.Uses > Options.RowHitCap)
     Capped |= uint64_t{1} << E.Bank;

@@ -3,12 +3,15 @@
 /// and what it does depends on requests and their times alone.
 #pragma once
 
+#include "timing/dram/FrFcfs.h"
 #include "timing/dram/TimeQueue.h"
 #include "timing/dram/TimingTable.h"
+#include "timing/policy/Policy.h"
 
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace vorion::isasim::dram {
@@ -80,15 +83,16 @@ struct ControllerCounts {
 Expected<Success> check(const TimingTable &Table,
                         const ControllerOptions &Options);
 
-/// First ready, first come first served: of the requests whose next command may
-/// be issued now, the oldest goes first, whatever that command is. Those whose
-/// row was opened for them go before all others, then refreshes, then reads or,
-/// while writes are drained, writes. docs/dram.md has the rules one by one.
+/// Requests whose row was opened for them go before all others, then refreshes,
+/// then reads or, while writes are drained, writes, in the order of a
+/// scheduler. docs/dram.md has the rules one by one.
 class Controller {
 public:
   /// \p Chosen must have passed check(); \p DeviceTable must outlive this.
+  /// Without \p Plugged requests are in the order of FrFcfs.
   explicit Controller(const TimingTable &DeviceTable,
-                      const ControllerOptions &Chosen = {});
+                      const ControllerOptions &Chosen = {},
+                      std::unique_ptr<DramScheduler> Plugged = nullptr);
 
   /// Takes a request. Its time is not before the last tick that advance() has
   /// come to. Requests of one time may be submitted in any order. One whose
@@ -165,7 +169,14 @@ private:
     uint64_t NextRefresh = Never;
   };
   /// Who goes first of those that could begin at one tick.
-  enum class Precedence : uint8_t { Promoted, Refresh, Queue, Capped, Closing };
+  enum class Precedence : uint8_t {
+    Promoted,
+    Refresh,
+    Queue,
+    Capped,
+    Closing,
+    SecondActivate ///< while it can wait; else it is the first of all
+  };
   /// What is decided next.
   struct Choice {
     uint64_t Begin = Never; ///< first tick of the command
@@ -204,6 +215,9 @@ private:
   bool noteRefreshes();
   void chooseQueue();
 
+  static Command columnOf(const Entry &E) {
+    return E.IsWrite ? Command::Write : Command::Read;
+  }
   Command activeColumn() const {
     return IsDraining ? Command::Write : Command::Read;
   }
@@ -211,9 +225,11 @@ private:
   void considerPromoted();
   void considerRefreshes();
   void considerQueue();
+  template <typename Scheduler> void considerQueueBy(const Scheduler &S);
   void setOldest(Queue &Q, uint32_t Bank, Kind Which, uint32_t Entry);
   void considerCapped(const Queue &Q);
   void considerClosing();
+  void considerSecondActivate();
   void consider(uint64_t Ready, uint64_t Order, Precedence Class, Command What,
                 uint32_t Bank, uint32_t Entry, uint32_t PlacePromoted);
   uint64_t ready(Command C, const Bank &B) const;
@@ -230,6 +246,8 @@ private:
 
   const TimingTable &Table;
   const ControllerOptions Options;
+  Policy<DramScheduler, FrFcfs> Schedule;
+  const bool CapsRows; ///< whether it does
   const uint32_t BurstsOfLine;
   uint32_t Above, Below; ///< drain marks, in bursts
   uint64_t RefreshInterval = Never;
@@ -253,10 +271,18 @@ private:
   std::vector<uint64_t> Common;
   std::vector<Rank> Ranks;
   uint64_t Open = 0;    ///< bit set of banks
+  uint64_t Opened = 0;  ///< those whose row waits for its first burst
   uint64_t Blocked = 0; ///< those that wait for a refresh
   uint64_t Capped = 0;  ///< those whose row has lost its precedence
   uint64_t NextRefresh = Never;
   uint32_t RefreshesDue = 0;
+  /// An activation whose second half is still to come, from tick \c From on and
+  /// not after \c Until.
+  struct HalfActivate {
+    uint64_t From, Until;
+    uint32_t Bank;
+  };
+  std::optional<HalfActivate> Half;
   std::array<Queue, 2> Queues; ///< reads, writes
   bool IsDraining = false;
   uint32_t ReadsOut = 0; ///< bursts taken in and not issued
@@ -264,7 +290,8 @@ private:
   uint32_t Owed = 0;     ///< bursts read before the next drain
   std::vector<Entry> Entries;
   std::vector<uint32_t> Free;
-  std::vector<uint32_t> Promoted; ///< a burst each, whose row was opened for it
+  /// A burst each, whose row was opened for it; of different banks.
+  std::vector<uint32_t> Promoted;
   uint64_t NextOrder = 0;
   uint64_t Unanswered = 0;
   Choice Next;

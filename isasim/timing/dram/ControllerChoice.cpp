@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 namespace vorion::isasim::dram {
 
@@ -73,7 +74,7 @@ bool Controller::enter(const Request &R, std::vector<Reply> &Replies) {
   if (L.OldestOf[Which].Entry != None)
     return false;
   setOldest(Q, R.Where.Bank, Which, Number);
-  if (!IsDecided || Options.CloseRowAfter != Never ||
+  if (!IsDecided || Options.CloseRowAfter != Never || !Schedule.isOwn() ||
       (IsHit && B.Uses > Options.RowHitCap))
     return true;
   if (R.IsWrite != IsDraining || (Blocked >> R.Where.Bank & 1))
@@ -132,13 +133,16 @@ inline Command Controller::nextOf(const Entry &E) const {
     return Command::Activate;
   if (B.Row != E.Row)
     return Command::Precharge;
-  return E.IsWrite ? Command::Write : Command::Read;
+  return columnOf(E);
 }
 
 /// Keeps the best: what can be begun first, of those who goes first.
 inline void Controller::consider(uint64_t Ready, uint64_t Order,
                                  Precedence Class, Command What, uint32_t Bank,
                                  uint32_t Entry, uint32_t PlacePromoted) {
+  if ((Half && What == Command::Activate) ||
+      (What == Command::Precharge && (Opened >> Bank & 1)))
+    return;
   const uint64_t Begin = std::max(Ready, BusReady[size_t(What)]);
   if (Begin > Next.Begin)
     return;
@@ -162,6 +166,19 @@ void Controller::decide() {
   considerQueue();
   if (Options.CloseRowAfter != Never)
     considerClosing();
+  if (Half)
+    considerSecondActivate();
+}
+
+/// The second half of an activation takes a tick that nothing else wants, but
+/// its last one in any case.
+void Controller::considerSecondActivate() {
+  constexpr Command What = Command::Activate2;
+  const bool IsLast =
+      std::max(Half->From, BusReady[size_t(What)]) >= Half->Until;
+  consider(Half->From, 0,
+           IsLast ? Precedence::Promoted : Precedence::SecondActivate, What,
+           Half->Bank, None, None);
 }
 
 void Controller::considerPromoted() {
@@ -170,25 +187,23 @@ void Controller::considerPromoted() {
   for (uint32_t P = 0; P != Promoted.size(); ++P) {
     const Entry &E = Entries[Promoted[P]];
     const Bank &B = Banks[E.Bank];
-    const Command What = nextOf(E);
-    const bool IsCapped = isColumn(What) && B.Uses > Options.RowHitCap;
+    const bool IsCapped = B.Uses > Options.RowHitCap;
     if (E.Order < Oldest) {
       Oldest = E.Order;
       AtCap = IsCapped ? P : None;
     }
     if (!IsCapped)
-      consider(ready(What, B), E.Order, Precedence::Promoted, What, E.Bank,
-               Promoted[P], P);
+      consider(ready(columnOf(E), B), E.Order, Precedence::Promoted,
+               columnOf(E), E.Bank, Promoted[P], P);
   }
   if (AtCap == None)
     return;
   const Entry &E = Entries[Promoted[AtCap]];
-  const Command What = nextOf(E);
-  consider(ready(What, Banks[E.Bank]), Never, Precedence::Promoted, What,
-           E.Bank, Promoted[AtCap], AtCap);
+  consider(ready(columnOf(E), Banks[E.Bank]), Never, Precedence::Promoted,
+           columnOf(E), E.Bank, Promoted[AtCap], AtCap);
 }
 
-/// The banks concerned take up no further requests.
+/// The banks concerned take up no further requests. Opened rows are used first.
 void Controller::considerRefreshes() {
   for (uint32_t R = 0; R != Ranks.size(); ++R) {
     if (Ranks[R].RefreshesDue == 0)
@@ -204,49 +219,75 @@ void Controller::considerRefreshes() {
     }
     const uint64_t All = (~uint64_t{0} >> (64 - Table.banksPerRank())) << First;
     const Command What = Open & All ? Command::PrechargeAll : Command::Refresh;
-    consider(Common[placeOfRank(R, What)], R, Precedence::Refresh, What, First,
-             None, None);
+    if (!(Opened & All))
+      consider(Common[placeOfRank(R, What)], R, Precedence::Refresh, What,
+               First, None, None);
     Blocked |= All;
   }
 }
 
 void Controller::considerQueue() {
+  Schedule.ask([this](const auto &S) { considerQueueBy(S); });
+}
+
+template <typename Scheduler>
+inline void Controller::considerQueueBy(const Scheduler &S) {
+  // What cannot begin before something else has is no business of ours, but of
+  // a scheduler that may let others wait for it.
+  constexpr bool IsOwn = std::is_same_v<Scheduler, FrFcfs>;
   const Queue &Q = Queues[IsDraining];
   const Command Column = activeColumn();
-  // A controller spends its time here, so that a candidate is one number: when
-  // it can begin, and below that its order.
-  constexpr unsigned OrderBits = 38;
-  uint64_t Best = Never;
+  uint64_t Best = Never, TicksOfBest = 0;
   uint32_t BankOfBest = None;
-  const auto Weigh = [&](uint32_t Bank, uint64_t Ready, Command What,
-                         uint64_t Order) {
-    const uint64_t Begin =
-        std::max({Ready, Common[Banks[Bank].Common + size_t(What)],
-                  BusReady[size_t(What)]});
-    const uint64_t Key = (Begin - Now) << OrderBits | Order;
-    BankOfBest = Key < Best ? Bank : BankOfBest;
-    Best = std::min(Best, Key);
+  const auto Weigh = [&](uint32_t Bank, Kind Which, Command What, bool Waits) {
+    const Oldest &Candidate = Q.Banks[Bank].OldestOf[Which];
+    const uint64_t Ticks =
+        Waits ? DramCandidate::Waits
+              : std::max({Banks[Bank].Next[size_t(What)],
+                          Common[Banks[Bank].Common + size_t(What)],
+                          BusReady[size_t(What)]}) -
+                    Now;
+    const uint64_t Rank =
+        S.rank({.Ticks = Ticks,
+                .Order = Candidate.Order,
+                .Bank = Bank,
+                .Row = IsOwn ? 0 : Entries[Candidate.Entry].Row,
+                .Uses = Banks[Bank].Uses,
+                .Next = What == Command::Activate    ? DramCandidate::Activate
+                        : What == Command::Precharge ? DramCandidate::Precharge
+                                                     : DramCandidate::Access,
+                .IsWrite = IsDraining});
+    BankOfBest = Rank < Best ? Bank : BankOfBest;
+    TicksOfBest = Rank < Best ? Ticks : TicksOfBest;
+    Best = std::min(Best, Rank);
   };
-  const auto WeighAll = [&](uint64_t Left, Kind Which, Command What) {
-    for (; Left; Left &= Left - 1) {
-      const auto Bank = static_cast<uint32_t>(std::countr_zero(Left));
-      Weigh(Bank, Banks[Bank].Next[size_t(What)], What,
-            Q.Banks[Bank].OldestOf[Which].Order);
-    }
+  const auto WeighAll = [&](uint64_t Left, Kind Which, Command What,
+                            bool Waits = false) {
+    for (; Left; Left &= Left - 1)
+      Weigh(static_cast<uint32_t>(std::countr_zero(Left)), Which, What, Waits);
   };
-  WeighAll(Q.BanksWith[Hit] & ~Blocked & ~Capped, Hit, Column);
+  const uint64_t Hits = Q.BanksWith[Hit] & (CapsRows ? ~Capped : ~uint64_t{0});
+  const uint64_t Misses = Q.BanksWith[Miss];
+  WeighAll(Hits & ~Blocked, Hit, Column);
+  if (!IsOwn)
+    WeighAll(Hits & Blocked, Hit, Column, true);
   const uint64_t BestHit = Best;
-  const uint64_t Misses = Q.BanksWith[Miss] & ~Blocked;
-  WeighAll(Misses & Open, Miss, Command::Precharge);
-  WeighAll(Misses & ~Open, Miss, Command::Activate);
-  if (BankOfBest != None) {
+  WeighAll(Misses & ~Blocked & Open & ~Opened, Miss, Command::Precharge);
+  if (!Half)
+    WeighAll(Misses & ~Blocked & ~Open, Miss, Command::Activate);
+  if (!IsOwn) {
+    WeighAll(Misses & Open & (Blocked | Opened), Miss, Command::Precharge,
+             true);
+    WeighAll(Misses & ~Open & (Half ? ~uint64_t{0} : Blocked), Miss,
+             Command::Activate, true);
+  }
+  if (BankOfBest != None && TicksOfBest != DramCandidate::Waits) {
     const Kind Which = Best == BestHit ? Hit : Miss;
     const uint32_t Entry = Q.Banks[BankOfBest].OldestOf[Which].Entry;
-    const uint64_t Begin = Now + (Best >> OrderBits);
-    consider(Begin, Entries[Entry].Order, Precedence::Queue,
+    consider(Now + TicksOfBest, Entries[Entry].Order, Precedence::Queue,
              nextOf(Entries[Entry]), BankOfBest, Entry, None);
   }
-  if (Q.BanksWith[Hit] & Capped & ~Blocked)
+  if (CapsRows && (Q.BanksWith[Hit] & Capped & ~Blocked))
     considerCapped(Q);
 }
 
@@ -277,10 +318,8 @@ void Controller::considerCapped(const Queue &Q) {
 }
 
 void Controller::considerClosing() {
-  uint64_t Wanted =
-      Blocked | Queues[0].BanksWith[Hit] | Queues[1].BanksWith[Hit];
-  for (const uint32_t E : Promoted)
-    Wanted |= uint64_t{1} << Entries[E].Bank;
+  const uint64_t Wanted =
+      Blocked | Opened | Queues[0].BanksWith[Hit] | Queues[1].BanksWith[Hit];
   for (uint64_t Left = Open & ~Wanted; Left; Left &= Left - 1) {
     const auto Which = static_cast<uint32_t>(std::countr_zero(Left));
     const Bank &B = Banks[Which];

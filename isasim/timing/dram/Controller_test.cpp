@@ -174,6 +174,7 @@ TEST_P(EveryStandard, ActivationsKeepTheirWindow) {
        T.HasColumnBus
            ? 0.0
            : static_cast<double>(T.CommandTicks[size_t(Command::Activate)] +
+                                 (T.SecondActivateWithin != 0) +
                                  T.CommandTicks[size_t(Command::Precharge)] +
                                  burstsOfLine(T) *
                                      T.CommandTicks[size_t(Command::Read)]),
@@ -301,6 +302,112 @@ TEST(Controller, ARowThatNobodyWaitsForIsClosedOnRequest) {
   EXPECT_EQ(R.Done.at(2), 5000 + T.CommandTicks[size_t(Command::Activate)] +
                               T.sameBank(Command::Activate, Command::Read) +
                               lineFromRead(T));
+}
+
+TEST(Controller, AnOpenedRowIsUsedBeforeItIsClosed) {
+  TimingTable T = table("ddr4-3200");
+  for (Constraint &C : T.Constraints)
+    if (C.From == Command::Read && C.To == Command::Read)
+      C.Ticks = 400;
+  // The read of row 1 has to wait for that of bank 4, until long after its row
+  // could be closed for row 2.
+  const std::vector<Request> All = {{10, 0, 0, {4, 0}, false},
+                                    {11, 1, 1, {0, 1}, false},
+                                    {12, 2, 2, {0, 2}, false}};
+  EXPECT_EQ(run(T, quiet(), All).Counts.Activations, 3U);
+  // Nor is it closed for a refresh.
+  ControllerOptions O;
+  T.RefreshInterval = 200;
+  for (Constraint &C : T.Constraints)
+    if (C.From == Command::Refresh)
+      C.Ticks = 50;
+  EXPECT_EQ(run(T, O, {All[0], All[1]}).Counts.Activations, 2U);
+}
+
+/// Where each second half of an activation comes, in ticks behind the first,
+/// and how many reads come in between.
+std::pair<std::vector<uint64_t>, unsigned> halves(const Outcome &R) {
+  std::vector<uint64_t> Behind;
+  unsigned Between = 0;
+  const Issued *First = nullptr;
+  for (const Issued &I : R.Commands)
+    if (I.What == Command::Activate) {
+      First = &I;
+    } else if (I.What == Command::Activate2) {
+      Behind.push_back(I.At - First->At);
+      First = nullptr;
+    } else {
+      Between += First != nullptr;
+    }
+  return {Behind, Between};
+}
+
+/// \p Hits lines of row 0 of banks in two groups, and one of a third group that
+/// comes meanwhile.
+std::vector<Request> hitsAndAMiss(const TimingTable &T, uint64_t Hits) {
+  std::vector<Request> All;
+  for (uint64_t N = 0; N != Hits; ++N)
+    All.push_back({0, N, N, {uint32_t(N % 2 * T.BanksPerGroup), 0}, false});
+  All.push_back({60, Hits, Hits, {2 * T.BanksPerGroup, 7}, false});
+  return All;
+}
+
+TEST(Controller, ASecondHalfOfAnActivationTakesTheNextFreeTick) {
+  const TimingTable T = table("lpddr5-6400");
+  ASSERT_NE(T.SecondActivateWithin, 0U);
+  const auto [Alone, None] =
+      halves(run(T, quiet(), {{10, 0, 0, {3, 1}, false}}));
+  EXPECT_EQ(Alone, std::vector<uint64_t>{1});
+  EXPECT_EQ(None, 0U);
+  // A stream keeps every second tick; an activation costs it nothing.
+  const std::vector<Request> All = hitsAndAMiss(T, 30);
+  const Outcome R = run(T, quiet(), All);
+  const auto [Behind, Between] = halves(R);
+  EXPECT_EQ(Behind.size(), 3U);
+  EXPECT_LE(Behind.back(), 2U);
+  std::vector<uint64_t> Reads;
+  for (const Issued &I : R.Commands)
+    if (I.What == Command::Read && I.At > 60)
+      Reads.push_back(I.At);
+  EXPECT_EQ(Reads.back() - Reads.front(), (Reads.size() - 1) * T.BurstTicks);
+}
+
+TEST(Controller, ASecondHalfOfAnActivationIsNotTooLate) {
+  // Reads that could take every tick of the command bus.
+  TimingTable T = table("lpddr5-6400");
+  T.BurstTicks = 1;
+  for (Constraint &C : T.Constraints)
+    if (C.From == Command::Read && C.To == Command::Read)
+      C.Ticks = 1;
+  for (const uint32_t Within : {1U, 3U, 8U}) {
+    T.SecondActivateWithin = Within;
+    const auto [Behind, Between] = halves(run(T, quiet(), hitsAndAMiss(T, 30)));
+    EXPECT_EQ(Behind.back(), Within);
+    EXPECT_EQ(Between, Within - 1);
+  }
+}
+
+TEST(Replay, TheHalvesOfAnActivationBelongTogether) {
+  const TimingTable T = table("lpddr5-6400");
+  const Issued First{100, Command::Activate, {0, 1}};
+  const auto With = [&](std::vector<Issued> Others) {
+    Others.insert(Others.begin(), First);
+    return firstViolation(T, Others);
+  };
+  EXPECT_EQ(With({{101, Command::Activate2, {0, 1}}}), "");
+  EXPECT_EQ(With({{108, Command::Activate2, {0, 1}}}), "");
+  EXPECT_EQ(With({{109, Command::Activate2, {0, 1}}}),
+            "command 1, ACT2 at 109 to bank 0, is too late for the second half "
+            "of an activation");
+  EXPECT_EQ(With({{104, Command::Activate, {4, 1}}}),
+            "command 1, ACT at 104 to bank 4, is between the halves of an "
+            "activation");
+  EXPECT_EQ(With({{115, Command::Read, {0, 1}}}),
+            "command 1, RD at 115 to bank 0, is too late for the second half "
+            "of an activation");
+  EXPECT_EQ(firstViolation(T, {{101, Command::Activate2, {0, 1}}}),
+            "command 0, ACT2 at 101 to bank 0, is the second half of no "
+            "activation");
 }
 
 TEST(Controller, AFullQueueSaysSo) {

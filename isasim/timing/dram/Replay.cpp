@@ -20,6 +20,8 @@ public:
     const Issued &I = All[Index];
     if (Index != 0 && I.At < All[Index - 1].At)
       return "goes back in time";
+    if (std::string Bad = halves(I); !Bad.empty())
+      return Bad;
     if (std::string Bad = state(I); !Bad.empty())
       return Bad;
     if (std::string Bad = buses(Index); !Bad.empty())
@@ -66,6 +68,23 @@ private:
     return Near;
   }
 
+  /// Of an activation of two commands.
+  std::string halves(const Issued &I) {
+    const bool IsSecond = I.What == Command::Activate2;
+    if (!Half)
+      return IsSecond ? "is the second half of no activation" : "";
+    if (IsSecond ? I.Where.Bank != Half->Where.Bank
+                 : I.What == Command::Activate)
+      return "is between the halves of an activation";
+    if (I.At > Half->At + Table.SecondActivateWithin)
+      return "is too late for the second half of an activation";
+    if (IsSecond)
+      Half.reset();
+    else if (I.Where.Bank == Half->Where.Bank)
+      return "reaches for a row that is half open";
+    return "";
+  }
+
   std::string state(const Issued &I) {
     std::optional<uint32_t> &Row = OpenRow[I.Where.Bank];
     const auto First = OpenRow.begin() + rank(I) * Table.banksPerRank();
@@ -75,6 +94,10 @@ private:
       if (Row)
         return "opens a row of a bank that has one open";
       Row = I.Where.Row;
+      if (Table.SecondActivateWithin)
+        Half = I;
+      break;
+    case Command::Activate2:
       break;
     case Command::Precharge:
       if (!Row)
@@ -124,6 +147,7 @@ private:
   const TimingTable &Table;
   const std::vector<Issued> &All;
   std::vector<std::optional<uint32_t>> OpenRow;
+  std::optional<Issued> Half; ///< an activation without its second half
   uint64_t Horizon = 0;
   std::array<uint64_t, 2> CommandBus{};
   uint64_t DataBus = 0;

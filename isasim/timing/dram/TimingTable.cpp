@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, Commands> CommandNames = {
-    "ACT", "PRE", "PREA", "RD", "WR", "REF", "REFPB"};
+    "ACT", "PRE", "PREA", "RD", "WR", "REF", "REFPB", "ACT2"};
 constexpr std::array<std::string_view, size_t(Scope::Count)> ScopeNames = {
     "bank", "bank_group", "rank", "channel", "other_ranks"};
 
@@ -72,6 +72,7 @@ JsonShape tableShape() {
                  {"refresh_interval", Ticks},
                  {"bank_refresh_interval", Ticks, false},
                  {"command_ticks", JsonShape::anything(), false},
+                 {"second_activate", Ticks, false},
                  {"column_bus", JsonShape::boolean(), false},
                  {"constraints",
                   JsonShape::list(
@@ -95,7 +96,8 @@ public:
 
   bool read() {
     return readValues() && readDevice() && readCommandTicks() &&
-           readConstraints() && checkPresent() && checkPossible();
+           readConstraints() && checkPresent() && checkPossible() &&
+           checkActivate();
   }
 
 private:
@@ -206,7 +208,9 @@ private:
            sum("burst", Table.BurstTicks) &&
            sum("refresh_interval", Table.RefreshInterval) &&
            (!Document.contains("bank_refresh_interval") ||
-            sum("bank_refresh_interval", Table.BankRefreshInterval));
+            sum("bank_refresh_interval", Table.BankRefreshInterval)) &&
+           (!Document.contains("second_activate") ||
+            sum("second_activate", Table.SecondActivateWithin));
   }
 
   bool readCommandTicks() {
@@ -383,6 +387,30 @@ private:
                               "more than the {} of a refresh",
                               Table.BankRefreshInterval,
                               Table.sameBank(C::RefreshBank, C::RefreshBank)));
+    return true;
+  }
+
+  /// Both halves of an activation are there before its row is used.
+  bool checkActivate() {
+    const uint32_t Within = Table.SecondActivateWithin;
+    if (Within == 0) {
+      for (const Constraint &K : Table.Constraints)
+        if (K.From == C::Activate2 || K.To == C::Activate2)
+          return fail("key constraints names ACT2, expected second_activate, "
+                      "the ticks in which it follows");
+      return true;
+    }
+    for (const Command Column : {C::Read, C::Write})
+      if (const uint32_t Opened = Table.sameBank(C::Activate, Column);
+          Within >= Opened)
+        return fail(fmt::format("key second_activate is {} ticks, expected "
+                                "fewer than the {} of ACT to {}",
+                                Within, Opened, name(Column)));
+      else if (Table.CommandTicks[size_t(Column)] != 1)
+        return fail(fmt::format("key command_ticks.{} is {}, expected 1 with "
+                                "second_activate: the second half has its tick",
+                                name(Column),
+                                Table.CommandTicks[size_t(Column)]));
     return true;
   }
 

@@ -23,6 +23,7 @@ enum class Command : uint8_t {
   Write,
   Refresh,     ///< of all banks of a rank, which are closed
   RefreshBank, ///< of one bank, which is closed
+  Activate2,   ///< the second half of an activation of two commands
   Count
 };
 inline constexpr size_t Commands = size_t(Command::Count);
@@ -65,6 +66,10 @@ struct TimingTable {
   uint32_t RefreshInterval = 0, BankRefreshInterval = 0;
   /// For which a command takes the command bus.
   std::array<uint32_t, Commands> CommandTicks{};
+  /// If an activation is two commands: the second comes at most so many ticks
+  /// after the first, from which all other times count. Other commands may
+  /// come in between, but for another activation.
+  uint32_t SecondActivateWithin = 0;
   /// Whether reads and writes have a command bus of their own.
   bool HasColumnBus = false;
   std::vector<Constraint> Constraints;

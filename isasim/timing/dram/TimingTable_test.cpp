@@ -147,7 +147,7 @@ TEST(TimingTable, WhatIsNoTableIsRefusedByItsKey) {
             "16777216");
   EXPECT_EQ(With([](Json &J) { J["constraints"][0]["from"] = "OPEN"; }),
             "t.json: key constraints[0].from is \"OPEN\", expected one of ACT, "
-            "PRE, PREA, RD, WR, REF, REFPB");
+            "PRE, PREA, RD, WR, REF, REFPB, ACT2");
   EXPECT_EQ(With([](Json &J) { J["constraints"][0]["scope"] = "die"; }),
             "t.json: key constraints[0].scope is \"die\", expected one of "
             "bank, bank_group, rank, channel, other_ranks");
@@ -169,6 +169,23 @@ TEST(TimingTable, WhatIsNoTableIsRefusedByItsKey) {
   EXPECT_EQ(With([](Json &J) { J["constraints"][3]["scope"] = "bank"; }),
             "t.json: key constraints[3].scope is bank, expected rank: ACT and "
             "PREA do not both name a bank");
+  EXPECT_EQ(With([](Json &J) { J["second_activate"] = "nRCD"; }),
+            "t.json: key second_activate is 29 ticks, expected fewer than the "
+            "29 of ACT to RD");
+  EXPECT_EQ(With([](Json &J) { J["second_activate"] = "4"; }),
+            "t.json: key command_ticks.RD is 4, expected 1 with "
+            "second_activate: the second half has its tick");
+  EXPECT_EQ(
+      With([](Json &J) { J["constraints"][0]["from"] = "ACT2"; }).substr(0, 41),
+      "t.json: key constraints has no ACT to RD");
+  EXPECT_EQ(With([](Json &J) {
+              J["constraints"].push_back({{"from", "ACT2"},
+                                          {"to", "RD"},
+                                          {"scope", "bank"},
+                                          {"ticks", "nRCD"}});
+            }),
+            "t.json: key constraints names ACT2, expected second_activate, the "
+            "ticks in which it follows");
   EXPECT_NE(With([](Json &J) { J.erase("tick_ps"); }).find("tick_ps"),
             std::string::npos);
 }

@@ -6,50 +6,16 @@
 
 namespace vorion::isasim {
 
+void SharedCache::tellBusy(uint32_t Bank, CycleSpan When) const {
+  BankPlace Where = Place;
+  Where.Bank = Bank;
+  Watch->bankBusy(Where, When);
+}
+
 Cache::Cache(const CacheShape &ShapeIn, MemoryBelow &BelowIn)
-    : Shape(ShapeIn),
-      Sets(std::max(1U, Shape.Bytes / TimingLineBytes / Shape.Ways)),
-      Below(BelowIn), Tags(size_t{Sets} * Shape.Ways), Lines(Tags.size()),
-      LastUse(Tags.size()), Banks(Shape.Banks),
-      MshrFreeAt(size_t{Shape.Banks} * Shape.Mshrs), Mshrs(MshrFreeAt.size()) {}
-
-// The loops over ways have no branch that depends on what they find, because
-// the host's branch predictor would mispredict it.
-size_t Cache::find(uint32_t Number, size_t Set) const {
-  // At most one way has the line, so that a sum over all finds it, which needs
-  // no way's answer before the next one's.
-  const uint32_t *Tag = Tags.data() + Set;
-  uint32_t Behind = 0;
-  for (uint32_t W = 0; W != Shape.Ways; ++W)
-    Behind += Tag[W] == Number + 1 ? W + 1 : 0;
-  return Behind ? Set + Behind - 1 : None;
-}
-
-/// The least recently used line; with the hint, the least recently used one
-/// without it, and the one that is spared loses its hint, so that lines which
-/// no tile came for do not stay for ever.
-size_t Cache::victim(size_t Set) {
-  // With the hint in the mask, lines that are kept come behind all others.
-  const auto OldestBy = [&](uint64_t Mask) {
-    size_t Oldest = Set;
-    uint64_t Used = Open;
-    for (size_t W = Set; W != Set + Shape.Ways; ++W) {
-      const uint64_t Order = LastUse[W] & Mask;
-      Oldest = Order < Used ? W : Oldest;
-      Used = std::min(Used, Order);
-    }
-    return Oldest;
-  };
-  const size_t Oldest = OldestBy(OrderMask);
-  if (!Shape.Hint || !(LastUse[Oldest] & Kept))
-    return Oldest;
-  const size_t OldestPlain = OldestBy(OrderMask | Kept);
-  if (LastUse[OldestPlain] & Kept)
-    return Oldest;
-  LastUse[Oldest] &= ~Kept;
-  ++Counted.Kept;
-  return OldestPlain;
-}
+    : Shape(ShapeIn), Below(BelowIn), Tags(Shape), Lines(Tags.places()),
+      Banks(Shape.Banks), MshrFreeAt(size_t{Shape.Banks} * Shape.Mshrs),
+      Mshrs(MshrFreeAt.size()) {}
 
 uint32_t Cache::firstMshr(uint32_t Bank) const {
   const auto First = MshrFreeAt.begin() + size_t{Bank} * Shape.Mshrs;
@@ -72,11 +38,8 @@ bool Cache::take(const CacheRequest &R, std::optional<uint64_t> &Answer) {
   const uint64_t Begin = std::max(R.Now, B.FreeAt);
   if (!serve(R, Answer))
     return false;
-  if (Watch) {
-    BankPlace Where = Place;
-    Where.Bank = OfBank;
-    Watch->bankBusy(Where, {Begin, B.FreeAt});
-  }
+  if (Watch)
+    tellBusy(OfBank, {Begin, B.FreeAt});
   return true;
 }
 
@@ -85,13 +48,17 @@ bool Cache::take(const CacheRequest &R, std::optional<uint64_t> &Answer) {
 bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
   const uint32_t Number = R.Address / TimingLineBytes;
   const uint32_t OfBank = Number % Shape.Banks;
-  const size_t Set = size_t{Number % Sets} * Shape.Ways;
   // The tags of a set, its uses and its lines lie in different places, of which
   // the host's cache has seldom all.
-  __builtin_prefetch(LastUse.data() + Set, 1);
-  __builtin_prefetch(Lines.data() + Set, 1);
-  const size_t Found = find(Number, Set);
-  const bool Fetches = Found == None && R.Op != CacheOp::WriteWhole;
+  const uint32_t Set = Tags.setOf(Number);
+  Tags.prefetch(Set);
+  __builtin_prefetch(Lines.data() + Tags.placeOf(Set), 1);
+  const size_t Found = Tags.find(Number, Set);
+  const bool IsRead = R.Op == CacheOp::Read;
+  const bool IsWrite = R.Op == CacheOp::Write || R.Op == CacheOp::WriteWhole;
+  const bool Passes = Shape.WriteThrough && IsWrite;
+  const bool Fetches =
+      Found == CacheTags::None && R.Op != CacheOp::WriteWhole && !Passes;
   const uint32_t Miss = Fetches ? firstMshr(OfBank) : 0;
   if (Fetches && MshrFreeAt[Miss] == Open)
     return false;
@@ -100,13 +67,21 @@ bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
   const uint64_t At = std::max(R.Now, B.FreeAt);
   Counted.BankCycles += At - R.Now;
   B.FreeAt = At + 1 + R.Extra;
-  const bool IsRead = R.Op == CacheOp::Read;
-  const bool IsWrite = R.Op == CacheOp::Write || R.Op == CacheOp::WriteWhole;
   ++(IsRead ? Counted.Reads : IsWrite ? Counted.Writes : Counted.Atomics);
-  const uint64_t Marks = (IsRead ? 0 : Dirty) | (R.Keep ? Kept : 0);
-  if (Found != None) {
+  if (Shape.WriteThrough && !IsRead) {
+    ++Counted.Writebacks;
+    Below.writeBack(At + Shape.HitCycles / 2, R.Address);
+  }
+  const CacheTags::Use Use{.Writes = !IsRead,
+                           .Keep = R.Keep,
+                           .Dirties = !IsRead && !Shape.WriteThrough};
+  if (Passes && Found == CacheTags::None) {
+    Answer = At + Shape.HitCycles / 2 + R.Back;
+    return true;
+  }
+  if (Found != CacheTags::None) {
     Line &L = Lines[Found];
-    LastUse[Found] = ++Uses | (LastUse[Found] & ~OrderMask) | Marks;
+    Tags.use(Set, Found, Use);
     ++(L.ReadyAt > At ? Counted.Merged : Counted.Hits);
     const uint32_t Plus = Shape.HitCycles + R.Extra + R.Back;
     if (IsWrite)
@@ -119,15 +94,14 @@ bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
     return true;
   }
 
-  const size_t Way = victim(Set);
+  const size_t Way = Tags.victim(Set, Counted.Kept);
   Line &V = Lines[Way];
-  if (LastUse[Way] & Dirty) {
+  if (Tags.isDirty(Way)) {
     ++Counted.Writebacks;
-    Below.writeBack(At, (Tags[Way] - 1) * TimingLineBytes);
+    Below.writeBack(At, Tags.number(Way) * TimingLineBytes);
   }
-  Tags[Way] = Number + 1;
+  Tags.replace(Set, Way, Number, Use);
   V = {At, Miss};
-  LastUse[Way] = ++Uses | Marks;
   const uint64_t Begin = Fetches ? std::max(At, MshrFreeAt[Miss]) : At;
   if (Fetches) {
     Counted.MshrCycles += Begin - At;
@@ -177,14 +151,13 @@ void Cache::fill(uint32_t Miss, uint64_t Then, std::vector<Answer> &Answers) {
 uint64_t Cache::flush(uint64_t Now) {
   std::vector<uint64_t> Sent(Shape.Banks, Now);
   for (size_t N = 0; N != Lines.size(); ++N)
-    if (LastUse[N] & Dirty) {
+    if (Tags.isDirty(N)) {
       ++Counted.Writebacks;
-      Below.writeBack(Sent[(Tags[N] - 1) % Shape.Banks]++,
-                      (Tags[N] - 1) * TimingLineBytes);
+      Below.writeBack(Sent[Tags.number(N) % Shape.Banks]++,
+                      Tags.number(N) * TimingLineBytes);
     }
   std::ranges::fill(Lines, Line());
-  std::ranges::fill(LastUse, 0);
-  std::ranges::fill(Tags, 0);
+  Tags.clear();
   return *std::max_element(Sent.begin(), Sent.end());
 }
 

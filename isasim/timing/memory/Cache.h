@@ -1,8 +1,10 @@
-/// A set-associative cache with banks, MSHRs, write-back, and LRU replacement
-/// that may spare lines of Gaussians which other tiles will want.
+/// A set-associative cache with banks and MSHRs.
 #pragma once
 
 #include "timing/common/TimeObserver.h"
+#include "timing/common/Turn.h"
+#include "timing/memory/Arrival.h"
+#include "timing/memory/CacheTags.h"
 #include "vorion/isasim/Timing.h"
 
 #include <cstdint>
@@ -28,6 +30,7 @@ struct Ticket {
   static constexpr uint32_t Nobody = std::numeric_limits<uint32_t>::max();
   uint32_t Unit = Nobody;
   uint32_t Tag = 0;
+  uint64_t RequestUntil = 0; ///< see Arrival
 };
 
 struct CacheRequest {
@@ -37,13 +40,19 @@ struct CacheRequest {
   bool Keep = false;  ///< intersect hint: other tiles will want the line
   uint32_t Extra = 0; ///< cycles that an atomic holds its bank beyond one
   uint32_t Back = 0;  ///< cycles from the cache back to who asked
+  uint32_t Port = 0;  ///< of a crossbar, if there is one
   Ticket From{};
+  /// Is answered when a crossbar has taken the request from its port's queue.
+  Ticket Dequeued{};
 };
 
 /// What a request that was not answered at once gets later.
 struct Answer {
   Ticket To;
   uint64_t At;
+  uint64_t AnswerFrom = Turn::Never; ///< see Arrival
+
+  Arrival arrival() const { return {At, To.RequestUntil, AnswerFrom}; }
 };
 
 /// What lies below a cache.
@@ -57,52 +66,68 @@ public:
   virtual void writeBack(uint64_t Now, uint32_t Address) = 0;
 };
 
-/// Sizes of one cache.
-struct CacheShape {
-  uint32_t Bytes, Ways, Banks, Mshrs, HitCycles;
-  bool Hint;
-};
-
-class Cache {
+/// What the cores of a cluster share: one of Cache and CrossbarCache.
+class SharedCache {
 public:
-  Cache(const CacheShape &Shape, MemoryBelow &Below);
+  virtual ~SharedCache() = default;
 
   /// When the request is answered: a read's data are back with who asked, a
-  /// write has been taken. Nothing if that is not known yet: then fill() says
-  /// it to the request's ticket.
-  std::optional<uint64_t> access(const CacheRequest &R);
+  /// write has been taken. Nothing if that is not known yet: then fill() or
+  /// step() says it to the request's ticket.
+  virtual std::optional<uint64_t> access(const CacheRequest &R) = 0;
   /// The line of \p Miss is there at \p Then. Appends what is known now.
-  void fill(uint32_t Miss, uint64_t Then, std::vector<Answer> &Answers);
+  virtual void fill(uint32_t Miss, uint64_t Then,
+                    std::vector<Answer> &Answers) = 0;
+
+  /// \name What it does by itself
+  /// @{
+  /// The next cycle in which that may be something; Turn::Never if nothing is
+  /// under way.
+  virtual uint64_t nextEvent() const { return Turn::Never; }
+  /// Does the cycle of nextEvent(). Appends the answers that it decides.
+  virtual void step(std::vector<Answer> & /*Answers*/) {}
+  /// @}
 
   /// Sends every dirty line down from \p Now on and forgets all lines; returns
   /// when the last has been sent.
-  uint64_t flush(uint64_t Now);
+  virtual uint64_t flush(uint64_t Now) = 0;
 
-  /// \p Observers are told from now on what the banks of \p Own do; null for
-  /// nobody.
+  /// Reports to \p Observers from now on what the banks of \p Own do; null for
+  /// none.
   void watch(const MemoryWatch *Observers, BankPlace Own) {
     Watch = Observers;
     Place = Own;
   }
-
   const CacheTime &time() const { return Counted; }
   void clearCounters() { Counted = {}; }
+
+protected:
+  void tellBusy(uint32_t Bank, CycleSpan When) const;
+
+  CacheTime Counted;
+  const MemoryWatch *Watch = nullptr;
+
+private:
+  BankPlace Place;
+};
+
+class Cache final : public SharedCache {
+public:
+  Cache(const CacheShape &Shape, MemoryBelow &Below);
+
+  std::optional<uint64_t> access(const CacheRequest &R) override;
+  void fill(uint32_t Miss, uint64_t Then,
+            std::vector<Answer> &Answers) override;
+  uint64_t flush(uint64_t Now) override;
 
 private:
   /// A time that is not decided yet.
   static constexpr uint64_t Open = std::numeric_limits<uint64_t>::max();
-  static constexpr size_t None = std::numeric_limits<size_t>::max();
 
   struct Line {
     uint64_t ReadyAt = 0; ///< when its bytes have come
     uint32_t Miss = 0;    ///< its MSHR while that is open
   };
-  /// \name Beside the order of a line's last use
-  /// @{
-  static constexpr uint64_t Kept = uint64_t{1} << 63; ///< it is spared once
-  static constexpr uint64_t Dirty = uint64_t{1} << 62;
-  static constexpr uint64_t OrderMask = Dirty - 1;
-  /// @}
   /// A request for a line that is on its way.
   struct Merged {
     Ticket From;
@@ -111,7 +136,7 @@ private:
   };
   /// What an MSHR holds.
   struct Mshr {
-    size_t Line = 0; ///< place in Lines
+    size_t Line = 0; ///< place in Tags
     std::vector<Merged> Waiting;
   };
   /// A bank works one request a cycle. Behind a miss that finds every MSHR
@@ -123,30 +148,16 @@ private:
 
   bool take(const CacheRequest &R, std::optional<uint64_t> &Answer);
   bool serve(const CacheRequest &R, std::optional<uint64_t> &Answer);
-  /// \name Places in Lines, of ways of the set that begins at \p Set
-  /// @{
-  size_t find(uint32_t Number, size_t Set) const;
-  size_t victim(size_t Set);
-  /// @}
   /// The MSHR of a bank that is free first, as far as is known.
   uint32_t firstMshr(uint32_t Bank) const;
 
   CacheShape Shape;
-  uint32_t Sets;
   MemoryBelow &Below;
-  std::vector<uint32_t> Tags; ///< line number plus 1, 0 for none
-  std::vector<Line> Lines;
-  /// By line: the order of its last use, 0 for no line, and what it is. Apart
-  /// from the lines, since every miss looks at those of a whole set and at no
-  /// more.
-  std::vector<uint64_t> LastUse;
+  CacheTags Tags;
+  std::vector<Line> Lines; ///< by place in Tags
   std::vector<Bank> Banks;
   std::vector<uint64_t> MshrFreeAt; ///< by bank
   std::vector<Mshr> Mshrs;
-  uint64_t Uses = 0;
-  CacheTime Counted;
-  const MemoryWatch *Watch = nullptr;
-  BankPlace Place;
 };
 
 } // namespace vorion::isasim

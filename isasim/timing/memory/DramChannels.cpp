@@ -1,5 +1,6 @@
 #include "timing/memory/DramChannels.h"
 
+#include "timing/common/Picoseconds.h"
 #include "timing/common/Turn.h"
 #include "timing/memory/MemoryWatch.h"
 #include "vorion/support/Suggest.h"
@@ -76,9 +77,15 @@ DramChannels::DramChannels(const DramTiming &Params, uint32_t Mhz)
       FrontTicks(Params.ControllerPs / 2 / Setup.Table.TickPs),
       BackTicks(Params.ControllerPs / Setup.Table.TickPs - FrontTicks),
       NextEvent(Turn::Never) {
+  const auto Make = pluggedPolicies().Dram;
   for (uint32_t N = 0; N != Params.Channels; ++N)
     Channels.push_back(
-        {dram::Controller(Setup.Table, Setup.Options), dram::Never, {}});
+        {dram::Controller(
+             Setup.Table, Setup.Options,
+             Make ? Make({N, Setup.Table.banks(), Setup.Table.BanksPerGroup})
+                  : nullptr),
+         dram::Never,
+         {}});
 }
 
 void DramChannels::watch(const MemoryWatch *Observers) {
@@ -108,7 +115,7 @@ void DramChannels::tellCommands() {
 }
 
 uint64_t DramChannels::cycleOf(uint64_t Ticks) const {
-  return (Ticks * Tick + PsTimesMhz - 1) / PsTimesMhz;
+  return quotientUp(Ticks * Tick, PsTimesMhz);
 }
 
 uint64_t DramChannels::tickOf(uint64_t Cycle) const {

@@ -58,7 +58,7 @@ public:
   /// The file that the table was read from, empty for one that came along.
   const std::string &tableFile() const { return TableFile; }
   const std::string &tableHash() const { return Setup.Table.Hash; }
-  /// \p Observers are told from now on; null for nobody.
+  /// Notifies \p Observers from now on; null for none.
   void watch(const MemoryWatch *Observers);
   /// Sums over the channels.
   DramTime time() const;
@@ -80,9 +80,7 @@ private:
   const DramSetup Setup;
   const std::string TableFile;
   const dram::AddressDecoder Decode;
-  /// A cycle has so many picoseconds times MHz.
-  static constexpr uint64_t PsTimesMhz = 1000000;
-  const uint64_t Tick; ///< likewise of a tick
+  const uint64_t Tick; ///< ps times MHz of a tick, as PsTimesMhz of a cycle
   /// Of the controller, in front of its queues and behind the device.
   const uint64_t FrontTicks, BackTicks;
   std::deque<Channel> Channels;

@@ -1,21 +1,14 @@
 #include "timing/memory/L2Link.h"
 
+#include "timing/common/Picoseconds.h"
+
 #include <algorithm>
 
 namespace vorion::isasim {
 
-/// A cycle has so many ps times MHz.
-static constexpr uint64_t PsTimesMhz = 1000000;
-
-static uint64_t quotientUp(uint64_t A, uint64_t B) { return (A + B - 1) / B; }
-
-/// When \p Cycle begins. Rounded down, so that cycleOf() gives it back.
-static uint64_t psOf(uint64_t Cycle, uint64_t Mhz) {
-  return Cycle * PsTimesMhz / Mhz;
-}
-/// The first cycle that does not begin before \p Ps.
-static uint64_t cycleOf(uint64_t Ps, uint64_t Mhz) {
-  return quotientUp(Ps * Mhz, PsTimesMhz);
+/// Cycles in \p Ps.
+static uint64_t wholeCycles(uint64_t Ps, uint64_t Mhz) {
+  return Ps * Mhz / PsTimesMhz;
 }
 
 L2Link::L2Link(const TimingConfig &Params)
@@ -43,16 +36,54 @@ uint64_t L2Link::firstInL2(uint64_t Cycle) const {
 }
 
 uint64_t L2Link::Direction::leave(uint64_t Now, uint32_t Count) {
+  const uint64_t Ps = Mbps ? quotientUp(Count * PsTimesMhz, Mbps) : 0;
+  if (Now > FreeAt)
+    BusySince = FreeAt = Now;
   Bytes += Count;
-  FreeAt = std::max(Now, FreeAt);
-  if (Mbps)
-    FreeAt += quotientUp(Count * PsTimesMhz, Mbps);
+  Busy += Ps;
+  FreeAt += Ps;
   return FreeAt;
+}
+
+uint64_t L2Link::Direction::busyUntil(uint64_t Now) const {
+  return Busy - (FreeAt - std::clamp(Now, BusySince, FreeAt));
+}
+
+/// Direction::leave() of a direction, which is reported to observers.
+uint64_t L2Link::leave(bool IsToL2, uint64_t Now, uint32_t Count) {
+  Direction &Way = IsToL2 ? To : From;
+  const uint64_t Begin = cycleOf(std::max(Now, Way.FreeAt), ChipMhz);
+  const uint64_t BusyBefore = wholeCycles(Way.Busy, ChipMhz);
+  const uint64_t Left = Way.leave(Now, Count);
+  // Short messages have parts of a cycle, which add up.
+  const uint64_t Cycles = wholeCycles(Way.Busy, ChipMhz) - BusyBefore;
+  if (Watch)
+    Watch->tell(
+        [&](TimeObserver &O) { O.linkBusy(IsToL2, {Begin, Begin + Cycles}); });
+  return Left;
+}
+
+void L2Link::begin(uint64_t Now) {
+  for (Direction *Way : {&To, &From}) {
+    Way->Bytes = 0;
+    Way->BusyThen = wholeCycles(Way->busyUntil(psOf(Now, ChipMhz)), ChipMhz);
+  }
+}
+
+LinkTime L2Link::time(uint64_t End) const {
+  const auto Busy = [&](const Direction &Way) {
+    return wholeCycles(Way.busyUntil(psOf(End, ChipMhz)), ChipMhz) -
+           Way.BusyThen;
+  };
+  return {.BytesToL2 = To.Bytes,
+          .BytesFromL2 = From.Bytes,
+          .BusyToL2 = Busy(To),
+          .BusyFromL2 = Busy(From)};
 }
 
 L2Link::Sent L2Link::send(uint64_t Now, CacheOp Op) {
   const uint32_t Data = Op == CacheOp::Read ? 0 : TimingLineBytes;
-  const uint64_t Left = To.leave(psOf(Now, ChipMhz), HeaderBytes + Data);
+  const uint64_t Left = leave(true, psOf(Now, ChipMhz), HeaderBytes + Data);
   return {cycleOf(Left, ChipMhz), cycleOf(Left + To.Latency, Mhz)};
 }
 
@@ -62,7 +93,8 @@ Answer L2Link::takeAnswer() {
   Answer A = Answers.front().What;
   Answers.pop();
   const uint64_t Left =
-      From.leave(psOf(A.At, Mhz), HeaderBytes + TimingLineBytes);
+      leave(false, psOf(A.At, Mhz), HeaderBytes + TimingLineBytes);
+  A.AnswerFrom = toChip(A.At);
   A.At = cycleOf(Left + From.Latency, ChipMhz);
   return A;
 }

@@ -53,19 +53,29 @@ public:
   /// is there.
   Answer takeAnswer();
 
-  uint64_t bytesToL2() const { return To.Bytes; }
-  uint64_t bytesFromL2() const { return From.Bytes; }
-  void clearCounters() { To.Bytes = From.Bytes = 0; }
+  /// Notifies \p Observers from now on; null for none.
+  void watch(const TimeWatch *Observers) { Watch = Observers; }
+  /// A run begins at the chip's cycle \p Now.
+  void begin(uint64_t Now);
+  /// Of a run until the chip's cycle \p End. What was sent and leaves later is
+  /// in the bytes, and in the busy cycles of the next run.
+  LinkTime time(uint64_t End) const;
 
 private:
   /// One way. Times are in ps.
   struct Direction {
     uint64_t Latency, Mbps;
+    uint64_t BusySince = 0; ///< without a gap until FreeAt
     uint64_t FreeAt = 0;
-    uint64_t Bytes = 0;
+    uint64_t Bytes = 0;    ///< of the run
+    uint64_t Busy = 0;     ///< since the machine was made, until FreeAt
+    uint64_t BusyThen = 0; ///< likewise in cycles, until the run's begin
     /// When a message of \p Count bytes has left that is there at \p Now.
     uint64_t leave(uint64_t Now, uint32_t Count);
+    /// Since the machine was made, until \p Now.
+    uint64_t busyUntil(uint64_t Now) const;
   };
+  uint64_t leave(bool IsToL2, uint64_t Now, uint32_t Count);
   struct Waiting {
     Answer What;
     uint64_t Number; ///< orders those of one time
@@ -82,6 +92,7 @@ private:
   Direction To, From;
   TimeQueue<Waiting, IsBefore> Answers;
   uint64_t Given = 0;
+  const TimeWatch *Watch = nullptr;
 };
 
 } // namespace vorion::isasim

@@ -12,12 +12,6 @@
 
 namespace vorion::isasim {
 
-/// Where a unit reaches memory.
-struct MemoryPort {
-  unsigned Cluster = 0;
-  uint32_t Unit = 0; ///< what it is called in answers
-};
-
 /// Sets of lines. A set is ready when its last line has come or been taken.
 class LineWaits {
 public:
@@ -31,42 +25,58 @@ public:
   /// for it is nobody's any more.
   void begin(unsigned N, uint64_t Now = 0) {
     Set &S = Sets[N];
-    S = {S.Tag + static_cast<uint32_t>(Sets.size()), 0, Now};
+    S = {(S.Tag + static_cast<uint32_t>(Sets.size())) & TagMask, 0, {Now}};
+  }
+  /// A line of set \p N is asked for elsewhere: answer() says when it comes, by
+  /// the tag that this returns.
+  uint32_t expect(unsigned N) {
+    ++Sets[N].Open;
+    return Sets[N].Tag;
   }
   /// Asks for a line of set \p N.
   void ask(MemorySystem &Memory, unsigned N, CacheRequest R) {
     Set &S = Sets[N];
     R.From = {Port.Unit, S.Tag};
-    if (const auto At = Memory.access(Port.Cluster, R))
-      S.Ready = std::max(S.Ready, *At);
+    if (const auto Then = Memory.access(Port, R))
+      S.come(*Then);
     else
       ++S.Open;
   }
   /// A line of set \p N is there at \p Then, and nobody has to be asked.
-  void add(unsigned N, uint64_t Then) {
-    Sets[N].Ready = std::max(Sets[N].Ready, Then);
-  }
+  void add(unsigned N, const Arrival &Then) { Sets[N].come(Then); }
   /// When set \p N is ready; Turn::Never if that is not known yet.
   uint64_t readyAt(unsigned N) const {
-    return Sets[N].Open ? Turn::Never : Sets[N].Ready;
+    return Sets[N].Open ? Turn::Never : Sets[N].Last.At;
+  }
+  /// Likewise, with how its last line came.
+  Arrival arrivalOf(unsigned N) const {
+    return Sets[N].Open ? Arrival{Turn::Never} : Sets[N].Last;
   }
   /// An answer of memory; returns the set that is known by it.
-  std::optional<unsigned> answer(uint32_t Tag, uint64_t Then) {
-    const auto N = static_cast<unsigned>(Tag & (Sets.size() - 1));
+  std::optional<unsigned> answer(const Answer &A) {
+    const auto N = static_cast<unsigned>(A.To.Tag & (Sets.size() - 1));
     Set &S = Sets[N];
-    if (S.Tag != Tag)
+    if (S.Tag != A.To.Tag)
       return std::nullopt;
-    S.Ready = std::max(S.Ready, Then);
+    S.come(A.arrival());
     if (--S.Open != 0)
       return std::nullopt;
     return N;
   }
 
+  /// Tags are no larger.
+  static constexpr uint32_t TagMask = (1U << 30) - 1;
+
 private:
   struct Set {
     uint32_t Tag = 0; ///< the set's number, and how often it began
     uint32_t Open = 0;
-    uint64_t Ready = 0;
+    Arrival Last;
+
+    void come(const Arrival &Then) {
+      if (Then.At > Last.At)
+        Last = Then;
+    }
   };
   MemoryPort Port;
   std::vector<Set> Sets;

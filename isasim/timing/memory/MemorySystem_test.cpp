@@ -32,8 +32,8 @@ protected:
     for (CacheRequest R : Requests) {
       GoOn(R.Now);
       R.From = {0, Asked++};
-      if (const auto At = M.access(0, R))
-        Then[R.From.Tag] = *At;
+      if (const auto Known = M.access({}, R))
+        Then[R.From.Tag] = Known->At;
     }
     GoOn(Turn::Never - 1);
     for (const Answer &A : Answers) {
@@ -92,6 +92,65 @@ TEST_F(MemoryTest, EachWayCarriesSoManyBytes) {
         {.Now = 0, .Address = N * Line, .Op = CacheOp::WriteWhole});
   EXPECT_NEAR(static_cast<double>(ask(Writes).at(Count - 1)),
               cycles(Count * 72 / 1.6), 30);
+}
+
+TEST_F(MemoryTest, TheLinkCountsBytesAndBusyCyclesOfEachDirection) {
+  Params.Link.ToL2Mbps = 1600;
+  Params.Link.FromL2Mbps = 800;
+  MemorySystem M(Params, 1);
+  constexpr uint32_t Writes = 100, Reads = 10;
+  for (uint32_t N = 0; N != Writes; ++N)
+    M.access({}, {.Now = 0, .Address = N * Line, .Op = CacheOp::WriteWhole});
+  // The run ends while they leave; the others are the next run's.
+  constexpr uint64_t End = 1000;
+  TimeReport First, Second;
+  M.report(First, End);
+  EXPECT_EQ(First.Link.BytesToL2, Writes * 72U);
+  EXPECT_EQ(First.Link.BytesFromL2, 0U);
+  EXPECT_NEAR(static_cast<double>(First.Link.BusyToL2), End, 1);
+  M.begin(End);
+  for (uint32_t N = 0; N != Reads; ++N)
+    M.access({}, {.Now = 1000000, .Address = N * Line, .From = {0, N}});
+  std::vector<Answer> Answers;
+  while (M.nextEvent() != Turn::Never)
+    M.advance(Turn::Never - 1, Answers);
+  M.report(Second, 2000000);
+  EXPECT_EQ(Second.Link.BytesToL2, Reads * 8U);
+  EXPECT_EQ(Second.Link.BytesFromL2, Reads * 72U);
+  EXPECT_NEAR(static_cast<double>(Second.Link.BusyToL2),
+              cycles((Writes * 72 + Reads * 8) / 1.6) - End, 2);
+  EXPECT_NEAR(static_cast<double>(Second.Link.BusyFromL2),
+              cycles(Reads * 72 / 0.8), 2);
+}
+
+TEST_F(MemoryTest, AnAnswerKnowsWhenItsMessagesWereOnTheLink) {
+  Params.Link.ToL2Ns = 100;
+  Params.Link.FromL2Ns = 40;
+  Params.Link.FromL2Mbps = 7200; // 10 ns for a line
+  MemorySystem M(Params, 1);
+  M.access({}, {.Now = 0, .Address = 0, .Op = CacheOp::WriteWhole});
+  constexpr uint32_t Reads = 3;
+  for (uint32_t N = 0; N != Reads; ++N)
+    M.access({}, {.Now = 100000, .Address = 0, .From = {0, N}});
+  std::vector<Answer> Answers;
+  while (M.nextEvent() != Turn::Never)
+    M.advance(Turn::Never - 1, Answers);
+  ASSERT_EQ(Answers.size(), Reads);
+  for (uint32_t N = 0; N != Reads; ++N) {
+    const Arrival A = Answers[N].arrival();
+    EXPECT_NEAR(static_cast<double>(A.RequestUntil - 100000), cycles(100), 1);
+    // The bank takes one a cycle; a line waits for those before it.
+    EXPECT_EQ(A.AnswerFrom, A.RequestUntil + Params.L2.HitCycles + N);
+    EXPECT_NEAR(static_cast<double>(A.At - Answers[0].AnswerFrom),
+                cycles(10 * (N + 1) + 40), 2);
+    uint64_t OnLink = 0, Other = 0, From = 100000;
+    A.divide(From, A.At + 5, [&](bool IsLink, uint64_t End) {
+      (IsLink ? OnLink : Other) += End - From;
+      From = End;
+    });
+    EXPECT_EQ(Other, Params.L2.HitCycles + N + 5);
+    EXPECT_EQ(OnLink + Other, A.At + 5 - 100000);
+  }
 }
 
 TEST_F(MemoryTest, AHitIsNotHeldUpByALineThatComesLater) {

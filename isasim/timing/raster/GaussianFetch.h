@@ -71,10 +71,10 @@ public:
   /// When all lines of the set have come or been taken; Turn::Never if that is
   /// not known yet.
   uint64_t readyAt(unsigned Set) const { return Waits.readyAt(Set); }
+  /// Likewise, with how the last one came or was taken.
+  Arrival arrivalOf(unsigned Set) const { return Waits.arrivalOf(Set); }
   /// An answer of memory. Returns whether a set is known by it.
-  bool answer(uint32_t Tag, uint64_t Then) {
-    return Waits.answer(Tag, Then).has_value();
-  }
+  bool answer(const Answer &A) { return Waits.answer(A).has_value(); }
   /// @}
 
   /// When the list's entry at \p Address is there, not before now(). Asks for
@@ -91,12 +91,14 @@ public:
     }
     return std::max(Next, Waits.readyAt(listSet(Line)));
   }
-  /// Asks for the record at \p Address; \p Keep: see CacheRequest. The
-  /// Gaussian holds its entry until hold() says otherwise.
+  /// How the line of the last entryAt() came.
+  Arrival arrivalOfEntry() const { return arrivalOf(listSet(ListLine)); }
+  /// Asks for the record of \p Bytes at \p Address; \p Keep: see CacheRequest.
+  /// The Gaussian holds its entry until hold() says otherwise.
   void readRecord(MemorySystem &Memory, size_t Number, uint32_t Address,
-                  bool Keep = false) {
+                  uint32_t Bytes, bool Keep = false) {
     beginGaussian(Number);
-    read(Memory, setOf(Number), Address, sizeof(raster::Gaussian), Keep);
+    read(Memory, setOf(Number), Address, Bytes, Keep);
   }
   /// Likewise for a Gaussian without a record in memory, which takes a cycle.
   void skipRecord(size_t Number) {
@@ -104,8 +106,8 @@ public:
     ++Next;
   }
   /// When the Gaussian's record is there; Turn::Never if that is not known yet.
-  uint64_t recordAt(size_t Number) const {
-    return Waits.readyAt(setOf(Number));
+  Arrival arrivalOfRecord(size_t Number) const {
+    return arrivalOf(setOf(Number));
   }
 
 private:

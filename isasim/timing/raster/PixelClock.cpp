@@ -94,8 +94,8 @@ std::optional<unsigned> PixelClock::step(MemorySystem &Memory) {
   return std::nullopt;
 }
 
-void PixelClock::answer(uint32_t Tag, uint64_t Then) {
-  if (!Fetch.answer(Tag, Then))
+void PixelClock::answer(const Answer &A) {
+  if (!Fetch.answer(A))
     return;
   switch (Now) {
   case Stage::Record:
@@ -128,17 +128,25 @@ PixelClock::pixelsOf(size_t Which) const {
 /// Asks for the lines of a group's pixels.
 void PixelClock::pixelLines(MemorySystem &Memory, unsigned Set, size_t Which,
                             CacheOp Op) {
+  const raster::Job &J = Work.What;
   Fetch.beginSet(Set);
-  uint32_t Last = 0;
-  for (const auto &Pixel : pixelsOf(Which)) {
-    const uint32_t Line =
-        lineOf(Work.What.Output + Pixel.Y * Work.What.OutputPitch +
-               Pixel.X * PixelBytes);
-    if (Line == Last)
-      continue;
-    Last = Line;
-    Fetch.line(Memory, Set, Line, Op);
-  }
+  const auto Lines = [&](uint32_t First, uint32_t Bytes) {
+    uint32_t Last = 0;
+    for (const auto &Pixel : pixelsOf(Which)) {
+      const uint32_t Line =
+          lineOf(First + Pixel.Y * (J.OutputPitch / PixelBytes * Bytes) +
+                 Pixel.X * Bytes);
+      if (Line == Last)
+        continue;
+      Last = Line;
+      Fetch.line(Memory, Set, Line, Op);
+    }
+  };
+  Lines(J.Output, PixelBytes);
+  if (Op == CacheOp::Read && J.IsLimited)
+    Lines(J.Limit, sizeof(uint32_t));
+  if (Op == CacheOp::Read && J.StartsLate)
+    Lines(J.From, sizeof(uint32_t));
 }
 
 void PixelClock::take(MemorySystem &Memory) {
@@ -161,14 +169,14 @@ void PixelClock::take(MemorySystem &Memory) {
     return;
   }
   Fetch.beginSet(GaussianFetch::Others);
-  Fetch.read(Memory, GaussianFetch::Others, Work.Record, sizeof(raster::Tail));
+  Fetch.read(Memory, GaussianFetch::Others, Work.Record, Work.What.tailBytes());
   Now = Stage::Record;
   At = Fetch.readyAt(GaussianFetch::Others);
 }
 
 void PixelClock::recorded(MemorySystem &Memory) {
   Fetch.waitUntil(At);
-  spend(PixelCycle::Load, At - DoneAt);
+  waitFor(At, Fetch.arrivalOf(GaussianFetch::Others), PixelCycle::Load);
   if (groups() == 0) {
     Now = Stage::Done;
     return;
@@ -184,7 +192,7 @@ void PixelClock::nextGroup() {
 
 /// The next group's pixels are read while this one's are worked on.
 void PixelClock::startGroup(MemorySystem &Memory) {
-  spend(PixelCycle::Load, At - DoneAt);
+  waitFor(At, Fetch.arrivalOf(pixelSet(Group)), PixelCycle::Load);
   Fetch.waitUntil(At);
   if (Group + 1 != groups())
     pixelLines(Memory, pixelSet(Group + 1), Group + 1, CacheOp::Read);
@@ -212,7 +220,11 @@ void PixelClock::fetch(MemorySystem &Memory) {
     At = EntryAt;
     return;
   }
-  Fetch.readRecord(Memory, Number, Work.Records[Number]);
+  // Nothing was left to evaluate while its entry was on its way.
+  if (Evaluated == Number)
+    waitFor(Fetch.now(), Fetch.arrivalOfEntry(), PixelCycle::Fetch);
+  Fetch.readRecord(Memory, Number, Work.Records[Number],
+                   sizeof(raster::Gaussian));
   ++Number;
   fetched();
 }
@@ -221,11 +233,10 @@ void PixelClock::fetch(MemorySystem &Memory) {
 /// do.
 void PixelClock::fetched() {
   for (; Evaluated != Number; ++Evaluated) {
-    const uint64_t Ready = Fetch.recordAt(Evaluated);
-    if (Ready == Turn::Never)
+    const Arrival Record = Fetch.arrivalOfRecord(Evaluated);
+    if (Record.At == Turn::Never)
       break;
-    if (Ready > DoneAt)
-      spend(PixelCycle::Fetch, Ready - DoneAt);
+    waitFor(Record.At, Record, PixelCycle::Fetch);
     spend(PixelCycle::Evaluate, 1);
     Fetch.hold(Evaluated, DoneAt);
   }
@@ -253,11 +264,10 @@ void PixelClock::storeGroup(MemorySystem &Memory) {
 /// Done if the last pixels have been taken.
 void PixelClock::stored() {
   At = Turn::Never;
-  const uint64_t Taken = Fetch.readyAt(GaussianFetch::Others);
-  if (Taken == Turn::Never)
+  const Arrival Taken = Fetch.arrivalOf(GaussianFetch::Others);
+  if (Taken.At == Turn::Never)
     return;
-  if (Taken > DoneAt)
-    spend(PixelCycle::Store, Taken - DoneAt);
+  waitFor(Taken.At, Taken, PixelCycle::Store);
   Now = Stage::Done;
   At = DoneAt;
 }

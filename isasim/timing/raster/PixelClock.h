@@ -3,10 +3,10 @@
 #pragma once
 
 #include "raster/WorkLog.h"
+#include "timing/common/CycleLedger.h"
 #include "timing/common/TimeObserver.h"
 #include "timing/common/Turn.h"
 #include "timing/memory/MemorySystem.h"
-#include "timing/raster/CycleLedger.h"
 #include "timing/raster/GaussianFetch.h"
 
 #include <cstddef>
@@ -32,13 +32,15 @@ public:
   void expect(unsigned Core, raster::TailWork &&Executed);
   /// False if it must go on before it is told of others.
   bool hasRoom() const { return Held < MostHeld; }
-  /// \p Observers are told from now on, as of number \p Own; null for nobody.
+  /// Notifies \p Observers from now on, as of number \p Own; null for none.
   void watch(const TimeWatch *Observers, unsigned Own);
 
   /// A run begins; what was given to it before goes on.
   void begin(uint64_t Now);
   /// No more work will be known in this run.
   void lastWork() { MoreWork = false; }
+  /// Behind lastWork(): more work may be known.
+  void moreWork() { MoreWork = true; }
   /// Everything that it was given is dropped.
   void reset();
   /// The next expected hand-over of \p Core has reached the queue.
@@ -52,7 +54,7 @@ public:
   /// Does it; returns the core of a hand-over that is done with it.
   std::optional<unsigned> step(MemorySystem &Memory);
   /// An answer of memory.
-  void answer(uint32_t Tag, uint64_t Then);
+  void answer(const Answer &A);
 
   uint64_t freeAt() const { return DoneAt; }
   void end(uint64_t End);
@@ -73,6 +75,13 @@ private:
   void spend(PixelCycle What, uint64_t Cycles) {
     DoneAt += Cycles;
     Ledger.spend(What, DoneAt);
+  }
+  /// Waits until \p Then for what came as \p Came says; the cycles that are not
+  /// the link's are for \p Why.
+  void waitFor(uint64_t Then, const Arrival &Came, PixelCycle Why) {
+    Came.divide(DoneAt, Then, [&](bool IsLink, uint64_t End) {
+      spend(IsLink ? PixelCycle::Link : Why, End - DoneAt);
+    });
   }
   void take(MemorySystem &Memory);
   void recorded(MemorySystem &Memory);

@@ -37,7 +37,7 @@ protected:
         std::vector<Answer> Answers;
         Memory.advance(U.turn().At, Answers);
         for (const Answer &A : Answers)
-          U.answer(A.To.Tag, A.At);
+          U.answer(A);
         continue;
       }
       if (U.turn().At == Turn::Never)
@@ -81,10 +81,10 @@ TEST_F(PixelClockTest, WhatFitsTheBufferIsFetchedOnce) {
   timeOf(tail(64, 100)); // warms L2
   const auto Reads = [&](unsigned Entries) {
     P.Pixel.BufferEntries = Entries;
-    Memory.begin();
+    Memory.begin(Now);
     timeOf(tail(64, 100));
     TimeReport R;
-    Memory.report(R);
+    Memory.report(R, Now);
     return R.L2[0].Reads;
   };
   // The record, 100 Gaussians with their list, 64 pixels; or 16 times over.

@@ -10,13 +10,15 @@ namespace vorion::isasim {
 using raster::GaussianWork;
 
 namespace {
-constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
 constexpr unsigned HalfBuffer = raster::VR_MAX_TILE * raster::VR_MAX_TILE / 2;
 size_t bytesOf(size_t Gaussians) { return Gaussians * sizeof(GaussianWork); }
 
 /// Of a command that was refused, units may not exist.
 size_t expOf(raster::LaneUnits U) {
   return U.Exp < raster::ExpUnitCount ? U.Exp : 0;
+}
+size_t frontEndOf(raster::LaneUnits U) {
+  return U.FrontEnd < std::size(raster::FrontEnds) ? U.FrontEnd : 0;
 }
 size_t blendOf(raster::LaneUnits U) {
   return U.Blend < raster::BlendUnitCount ? U.Blend : 0;
@@ -85,6 +87,14 @@ void RasterClock::begin(uint64_t Start) {
   OfLanes = {};
 }
 
+void RasterClock::moreWork(uint64_t Start) {
+  MoreWork = true;
+  if ((Now == Stage::Idle || Now == Stage::Take) && DispatchAt < Start)
+    spend(RasterCycle::Idle, Start - DispatchAt);
+  if (Now == Stage::Take)
+    At = std::max(At, DispatchAt);
+}
+
 void RasterClock::reset() {
   for (Agent &A : Agents) {
     A.Expected.clear();
@@ -135,8 +145,19 @@ void RasterClock::handOver() {
   Agents[Serving].Batches.push_back(true);
   ++Agents[Serving].Waiting;
   HandedOver = Number;
+  if (DueBatches > 1) {
+    --DueBatches;
+    return awaitRoom();
+  }
+  DueBatches = 0;
   Now = Stage::Fetch;
   fetched();
+}
+
+/// The next batch is complete, and waits for its agent.
+void RasterClock::awaitRoom() {
+  Now = Stage::HandOver;
+  At = Agents[Serving].Waiting < BatchDepth ? DispatchAt : Turn::Never;
 }
 
 std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
@@ -154,7 +175,7 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
       break;
     }
     take();
-    if (task().IsBackward && !task().Refusal)
+    if (!task().Refusal)
       load(Memory);
     fetched();
     break;
@@ -176,8 +197,8 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
   return std::nullopt;
 }
 
-void RasterClock::answer(uint32_t Tag, uint64_t Then) {
-  if (!Fetch.answer(Tag, Then))
+void RasterClock::answer(const Answer &A) {
+  if (!Fetch.answer(A))
     return;
   if (Behind && Behind->At == Turn::Never)
     writtenBehind();
@@ -207,7 +228,7 @@ std::optional<unsigned> RasterClock::nextAgent() const {
 /// Whether a tile, so that the next can be blended while it is written, or a
 /// clean buffer for that.
 bool RasterClock::fitsBuffer(const raster::Job &J) const {
-  return unsigned{J.Width} * J.Height <= Timing.TileOverlap * HalfBuffer;
+  return J.bufferPlaces() <= Timing.TileOverlap * HalfBuffer;
 }
 
 /// A command that needs the whole buffer, or may read what is being written.
@@ -216,7 +237,7 @@ bool RasterClock::mustWaitForBehind() const {
     return false;
   const raster::Job &Next =
       Agents[*nextAgent()].Expected.front().command().What;
-  return Next.IsBackward || !fitsBuffer(Next);
+  return Next.loadsOutput() || !fitsBuffer(Next);
 }
 
 void RasterClock::take() {
@@ -236,7 +257,9 @@ void RasterClock::take() {
   // What is still written behind has the port first.
   const uint64_t Begun = Behind ? std::max(At + Timing.StartCycles, Fetch.now())
                                 : At + Timing.StartCycles;
-  OfLanes.Moved += uint64_t{task().Width} * task().Height;
+  const uint64_t Pixels = uint64_t{task().Width} * task().Height;
+  OfLanes.Moved += Pixels;
+  OfLanes.RangeWords += task().rangeWords() * Pixels;
   BlendsCounted = false;
   if (Work.isComplete())
     countBlends();
@@ -248,6 +271,7 @@ void RasterClock::take() {
   Fetch.begin(Begun);
   Fetch.beginSet(GaussianFetch::Others);
   Number = Dispatches = HandedOver = 0;
+  Fragments = DueBatches = 0;
   BlendedAt = 0;
   Now = Stage::Fetch;
 }
@@ -256,30 +280,42 @@ void RasterClock::countBlends() {
   const uint64_t Blends = Work.command().Counts.Blends;
   if (task().IsBackward)
     OfLanes.Gradients += Blends;
+  else if (task().Units.isOpaque())
+    OfLanes.Passed += Blends;
   else
     OfLanes.Blended[blendOf(task().Units)] += Blends;
   BlendsCounted = true;
 }
 
-/// A backward tile begins with its pixels' transmittances, gradients and last
-/// contributors, a line a cycle.
+/// What a tile begins with, a line a cycle: of a backward one its pixels'
+/// transmittances, gradients and last contributors, of another its pixels if
+/// they are loaded, and their ranges.
 void RasterClock::load(MemorySystem &Memory) {
+  const uint32_t PixelBytes = task().pixelBytes();
   const auto Read = [&](uint32_t First, unsigned Row, uint32_t Bytes) {
     const uint32_t Pitch = task().OutputPitch / PixelBytes * Bytes;
     Fetch.read(Memory, GaussianFetch::Others, First + Row * Pitch,
                task().Width * Bytes);
   };
   for (unsigned Row = 0; Row != task().Height; ++Row) {
-    Read(task().Output, Row, PixelBytes);
-    Read(task().Upstream, Row, PixelBytes);
-    Read(task().Last, Row, sizeof(uint32_t));
+    if (task().loadsOutput())
+      Read(task().Output, Row, PixelBytes);
+    if (task().IsBackward) {
+      Read(task().Upstream, Row, PixelBytes);
+      Read(task().Last, Row, sizeof(uint32_t));
+    }
+    if (task().IsLimited)
+      Read(task().Limit, Row, sizeof(uint32_t));
+    if (task().StartsLate)
+      Read(task().From, Row, sizeof(uint32_t));
   }
 }
 
 /// The place in its list of a Gaussian in the order of the fetches.
 uint32_t RasterClock::entryOf(size_t Gaussian) const {
-  return static_cast<uint32_t>(
-      task().IsBackward ? Work.command().Entries - 1 - Gaussian : Gaussian);
+  return static_cast<uint32_t>(task().IsBackward
+                                   ? Work.command().Entries - 1 - Gaussian
+                                   : Work.command().First + Gaussian);
 }
 
 void RasterClock::fetch(MemorySystem &Memory) {
@@ -296,7 +332,12 @@ void RasterClock::fetch(MemorySystem &Memory) {
       At = EntryAt;
       return;
     }
-    Fetch.readRecord(Memory, Number, G.Address, G.SpansTiles);
+    // Nothing was left to dispatch while its entry was on its way.
+    if (Dispatches == Number &&
+        Fetch.readyAt(GaussianFetch::Others) <= DispatchAt)
+      waitFor(Fetch.now(), Fetch.arrivalOfEntry(), RasterCycle::Fetch);
+    Fetch.readRecord(Memory, Number, G.Address, task().frontEnd().RecordBytes,
+                     G.SpansTiles);
   }
   ++Number;
   fetched();
@@ -309,18 +350,25 @@ bool RasterClock::endsBatch(size_t Gaussian) const {
 /// Dispatches what is known to come, in order, and says when there is more to
 /// do. Nothing is dispatched before all is there that the tile begins with.
 void RasterClock::fetched() {
-  const uint64_t Loaded = Fetch.readyAt(GaussianFetch::Others);
-  const bool IsLoaded = Loaded != Turn::Never;
-  if (IsLoaded && Loaded > DispatchAt)
-    spend(RasterCycle::Begin, Loaded - DispatchAt);
-  for (; IsLoaded && Dispatches != Number; ++Dispatches) {
-    const uint64_t Ready = Fetch.recordAt(Dispatches);
-    if (Ready == Turn::Never)
+  const Arrival Loaded = Fetch.arrivalOf(GaussianFetch::Others);
+  const bool IsLoaded = Loaded.At != Turn::Never;
+  if (IsLoaded)
+    waitFor(Loaded.At, Loaded, RasterCycle::Begin);
+  for (; IsLoaded && Dispatches != Number && DueBatches == 0; ++Dispatches) {
+    const Arrival Record = Fetch.arrivalOfRecord(Dispatches);
+    if (Record.At == Turn::Never)
       break;
-    dispatch(Work[Dispatches], Ready + Timing.RecordCycles);
+    waitFor(Record.At + Timing.RecordCycles, Record, RasterCycle::Fetch);
+    dispatch(Work[Dispatches]);
     Fetch.hold(Dispatches, DispatchAt + 1); // its entry is free a cycle later
+    if (task().HandsFragments)
+      countFragments(Work[Dispatches].ChosenPixels);
   }
   Held -= bytesOf(Work.drop(Dispatches));
+  if (DueBatches != 0) {
+    IsStarved = false;
+    return awaitRoom();
+  }
   const bool IsLast = Work.isComplete() && Number == Work.known();
   const bool IsBatch = Number != HandedOver && endsBatch(Number - 1);
   IsStarved = !IsLast && !IsBatch && Number == Work.known();
@@ -338,15 +386,18 @@ void RasterClock::fetched() {
   spend(
       RasterCycle::Flush,
       backwardDepth(task().Units, static_cast<unsigned>(task().Backward.Unit)));
-  Now = Stage::HandOver;
-  if (Agents[Serving].Waiting < BatchDepth)
-    At = DispatchAt;
+  awaitRoom();
 }
 
-void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
+/// Fragments that are handed over leave the lanes while others are dispatched.
+void RasterClock::countFragments(unsigned More) {
+  Fragments += More;
+  DueBatches = Fragments / raster::VR_GRAD_LANES;
+  Fragments %= raster::VR_GRAD_LANES;
+}
+
+void RasterClock::dispatch(const GaussianWork &G) {
   ++Spent.Gaussians;
-  if (Ready > DispatchAt)
-    spend(RasterCycle::Fetch, Ready - DispatchAt);
   if (G.Width == 0) {
     ++Spent.Clipped;
     spend(RasterCycle::Clip, Timing.ClipCycles);
@@ -359,7 +410,10 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
     spend(RasterCycle::Hazard, Safe - DispatchAt);
   Lanes.enter(G, DispatchAt, P.Cycles);
   Spent.LaneSlots += P.Slots;
-  OfLanes.Evaluated[expOf(task().Units)] += P.Slots;
+  if (task().Units.isOpaque())
+    OfLanes.Covered[frontEndOf(task().Units)] += P.Slots;
+  else
+    OfLanes.Evaluated[expOf(task().Units)] += P.Slots;
   spend(RasterCycle::Blend, std::max<uint64_t>(P.Cycles, Timing.ClipCycles));
   BlendedAt = DispatchAt;
 }
@@ -372,11 +426,16 @@ void RasterClock::flush() {
     spend(RasterCycle::Flush, Emptied - DispatchAt);
   if (!BlendsCounted)
     countBlends();
+  if (Fragments != 0) { // the last batch is not full
+    Fragments = 0;
+    DueBatches = 1;
+    return awaitRoom();
+  }
   Lanes.clear();
   Draining = {};
   At = DispatchAt;
   IsDirty = true;
-  if (task().Drains || task().IsBackward || Work.command().hasFailed()) {
+  if (task().Drains || task().handsOver() || Work.command().hasFailed()) {
     Now = Stage::Done;
   } else if (!fitsBuffer(task())) {
     Now = Stage::Drain;
@@ -408,7 +467,9 @@ void RasterClock::drained() {
                       Draining);
   if (At == Turn::Never)
     return;
-  spend(RasterCycle::Drain, At - DispatchAt);
+  // Sending the line is its own cycle, what follows is the link's.
+  spend(RasterCycle::Drain, 1);
+  waitFor(At, Fetch.arrivalOf(GaussianFetch::Others), RasterCycle::Drain);
   if (Draining.Row == task().Height)
     Now = Stage::Done;
 }
@@ -447,7 +508,7 @@ RasterClock::Finished RasterClock::finishBehind(MemorySystem &Memory) {
 }
 
 RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
-  if (task().IsBackward)
+  if (task().handsOver())
     Agents[Serving].Batches.push_back(false);
   spend(RasterCycle::Drain,
         Store.writeRest(Memory, Work.command(), DispatchAt) - DispatchAt);

@@ -5,10 +5,10 @@
 
 #include "raster/RasterAgent.h"
 #include "raster/WorkLog.h"
+#include "timing/common/CycleLedger.h"
 #include "timing/common/TimeObserver.h"
 #include "timing/common/Turn.h"
 #include "timing/memory/MemorySystem.h"
-#include "timing/raster/CycleLedger.h"
 #include "timing/raster/GaussianFetch.h"
 #include "timing/raster/RasterLanes.h"
 #include "timing/raster/TileStore.h"
@@ -28,11 +28,12 @@ namespace vorion::isasim {
 class RasterWork {
 public:
   RasterWork() = default;
-  /// Nothing is known but Core, What and Entries.
+  /// Nothing is known but Core, What, Entries and First.
   explicit RasterWork(const raster::CommandWork &Begun) {
     Of.Core = Begun.Core;
     Of.What = Begun.What;
     Of.Entries = Begun.Entries;
+    Of.First = Begun.First;
   }
 
   /// The rest is known. Of \p Done, but its Gaussians.
@@ -95,7 +96,7 @@ public:
               unsigned QueueDepth,
               size_t MostHeld = std::numeric_limits<size_t>::max());
 
-  /// Batches of gradients that an agent holds (raster::AgentConfig).
+  /// Batches that an agent holds (raster::AgentConfig).
   static constexpr unsigned BatchDepth = raster::AgentConfig().BatchDepth;
 
   /// The work of a command of an agent. A command may have been started before
@@ -114,7 +115,7 @@ public:
   /// To be called before turn() when it may have been told something.
   void refresh();
 
-  /// \p Observers are told from now on, as of number \p Own; null for nobody.
+  /// Notifies \p Observers from now on, as of number \p Own; null for none.
   void watch(const TimeWatch *Observers, unsigned Own);
 
   /// A run begins; what was given to it before goes on.
@@ -122,6 +123,8 @@ public:
   /// No more work will be known in this run: what has none yet waits for the
   /// next run and is passed over.
   void lastWork() { MoreWork = false; }
+  /// Behind lastWork(): more work may be known from \p Now on.
+  void moreWork(uint64_t Now);
   /// Everything that it was given is dropped.
   void reset();
   bool isFull(unsigned Agent) const {
@@ -133,8 +136,8 @@ public:
   /// The agent's core starts its next command; needs !isFull().
   void start(unsigned Agent, uint64_t Now);
 
-  /// Whether a batch of gradients, or the end of a backward command, waits for
-  /// the agent's core, or nothing will come.
+  /// Whether a batch, or the end of a command that hands over, waits for the
+  /// agent's core, or nothing will come.
   bool canTake(unsigned Agent) const {
     return !Agents[Agent].Batches.empty() || Agents[Agent].Queued == 0;
   }
@@ -155,7 +158,7 @@ public:
   /// done with it, or has a batch of gradients.
   std::optional<Finished> step(MemorySystem &Memory);
   /// An answer of memory.
-  void answer(uint32_t Tag, uint64_t Then);
+  void answer(const Answer &A);
   /// The pixel unit is done with a command of the agent.
   void tailDone(unsigned Agent) { --Agents[Agent].Tails; }
 
@@ -175,7 +178,7 @@ private:
     unsigned Queued = 0;
     unsigned Behind = 0; ///< of these, whose tile is written behind the next
     unsigned Tails = 0;  ///< that the pixel unit has
-    /// Of gradients, waiting for the core; false for the end of a command.
+    /// Waiting for the core; false for the end of a command.
     std::deque<bool> Batches;
     unsigned Waiting = 0; ///< of these, batches
 
@@ -202,6 +205,13 @@ private:
     DispatchAt += Cycles;
     Ledger.spend(What, DispatchAt);
   }
+  /// Waits until \p Then for what came as \p Came says; the cycles that are not
+  /// the link's are for \p Why.
+  void waitFor(uint64_t Then, const Arrival &Came, RasterCycle Why) {
+    Came.divide(DispatchAt, Then, [&](bool IsLink, uint64_t End) {
+      spend(IsLink ? RasterCycle::Link : Why, End - DispatchAt);
+    });
+  }
   Turn turnOfFront() const {
     if (Now == Stage::Fetch && Number == Work.known() && !Work.isComplete())
       return MoreWork ? Turn(At, false) : Turn();
@@ -219,10 +229,12 @@ private:
   void load(MemorySystem &Memory);
   uint32_t entryOf(size_t Gaussian) const;
   void handOver();
+  void awaitRoom();
+  void countFragments(unsigned More);
   void fetch(MemorySystem &Memory);
   void fetched();
   bool endsBatch(size_t Gaussian) const;
-  void dispatch(const raster::GaussianWork &G, uint64_t Ready);
+  void dispatch(const raster::GaussianWork &G);
   void flush();
   bool fitsBuffer(const raster::Job &J) const;
   void drainBehind();
@@ -254,8 +266,10 @@ private:
   bool BlendsCounted = false; ///< of Work
   uint64_t TakenAt = 0;       ///< of Work
   size_t Number = 0;          ///< of the Gaussian that is fetched next
-  size_t Dispatches = 0;  ///< Gaussians that have been dispatched or dropped
-  size_t HandedOver = 0;  ///< of these, in batches that the agent has
+  size_t Dispatches = 0; ///< Gaussians that have been dispatched or dropped
+  size_t HandedOver = 0; ///< of these, in batches that the agent has
+  /// Fragments that fill no batch yet, and batches that the agent has not.
+  unsigned Fragments = 0, DueBatches = 0;
   bool IsStarved = false; ///< see refresh()
   /// When the last box of Work had its last lane; 0 if there was none.
   uint64_t BlendedAt = 0;

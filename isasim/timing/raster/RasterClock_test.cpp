@@ -30,7 +30,7 @@ protected:
       std::vector<Answer> Answers;
       Memory.advance(R.turn().At, Answers);
       for (const Answer &A : Answers)
-        R.answer(A.To.Tag, A.At);
+        R.answer(A);
     }
     if (R.turn().At == Turn::Never)
       return false;
@@ -241,13 +241,17 @@ class TileOverlapTest : public RasterClockTest {
 protected:
   /// \p Count tiles of 1024 lines, or half as many, each with boxes that take
   /// 1536 cycles, of two agents in turn.
-  RasterTime tiles(unsigned Count, unsigned Width, unsigned Overlap) {
+  RasterTime tiles(unsigned Count, unsigned Width, unsigned Overlap,
+                   bool KeepsLast = false) {
     P.Raster.TileOverlap = Overlap;
     RasterClock R(P, MemoryPort(), 2, Count);
     R.begin(Now);
     std::vector<unsigned> Served, Expected;
     for (unsigned N = 0; N != Count; ++N) {
-      R.expect(N % 2, written(Width, 64, std::vector(6, box(0, 0, 64, 64))));
+      CommandWork W = written(Width, 64, std::vector(6, box(0, 0, 64, 64)));
+      W.What.KeepsLast = KeepsLast;
+      W.What.Last = 0x800000;
+      R.expect(N % 2, std::move(W));
       R.start(N % 2, Now);
       Expected.push_back(N % 2);
     }
@@ -281,6 +285,14 @@ TEST_F(TileOverlapTest, HalvesOverlapTilesThatFitOne) {
   EXPECT_EQ(Whole.Cycles, Off.Cycles);
   const RasterTime Halves = tiles(4, 32, 1);
   EXPECT_EQ(of(Halves, RasterCycle::Drain), 512U + P.Raster.PortCycles);
+}
+
+// A pixel with its last contributor takes two rows of a bank.
+TEST_F(TileOverlapTest, HalvesDoNotFitTilesOfWidePixels) {
+  const RasterTime Off = tiles(4, 32, 0, true), Halves = tiles(4, 32, 1, true);
+  EXPECT_EQ(Halves.Cycles, Off.Cycles);
+  const RasterTime Whole = tiles(4, 32, 2, true);
+  EXPECT_LT(of(Whole, RasterCycle::Drain), of(Off, RasterCycle::Drain) / 2);
 }
 
 TEST_F(TileOverlapTest, ATileWaitsUntilTheOneBeforeIsWritten) {
@@ -343,7 +355,7 @@ TEST_F(TileOverlapTest, ARunMayEndWhileATileIsWritten) {
 TEST_F(RasterClockTest, BlocksThatAreSkippedTakeNoCycle) {
   GaussianWork G = box(0, 0, 64, 64);
   G.Blocks = 40;
-  G.BlockPixels = 40 * 16;
+  G.ChosenPixels = 40 * 16;
   const auto Of = [&] { return timeOf(pushed({G})); };
   EXPECT_EQ(of(Of(), RasterCycle::Blend), 256U) << "not asked for";
   P.Raster.SkipBlocks = 1;
@@ -359,7 +371,7 @@ TEST_F(RasterClockTest, BlocksThatAreSkippedTakeNoCycle) {
   P.Raster.Lanes = 16;
   G = box(3, 3, 2, 2);
   G.Blocks = 4;
-  G.BlockPixels = 4;
+  G.ChosenPixels = 4;
   EXPECT_EQ(of(Of(), RasterCycle::Blend), 1U);
   EXPECT_EQ(Of().LaneSlots, 4U);
 }
@@ -416,6 +428,83 @@ TEST_F(RasterClockTest, HaltsWhileTwoBatchesWait) {
   EXPECT_TRUE(R.canTake(0)); // nothing will come
   R.end(R.freeAt());
   EXPECT_EQ(of(R.time(), RasterCycle::Drain), 1000U);
+}
+
+/// A command of triangles.
+CommandWork triangles(std::vector<GaussianWork> Boxes) {
+  CommandWork W;
+  W.What.Width = W.What.Height = 64;
+  W.What.Units.FrontEnd = 1;
+  W.What.Output = 0x300000;
+  W.What.OutputPitch = 64 * 8;
+  W.Gaussians = std::move(Boxes);
+  return W;
+}
+
+TEST_F(RasterClockTest, TrianglesHaveTheirOwnLaneAndOutput) {
+  const RasterTime T = timeOf(triangles({box(0, 0, 32, 64), box(0, 0, 0, 0)}));
+  EXPECT_EQ(of(T, RasterCycle::Blend), 2048U / 16);
+  EXPECT_EQ(of(T, RasterCycle::Clip), 1U);
+  EXPECT_EQ(of(T, RasterCycle::Flush), laneDepth({.FrontEnd = 1}) - 1 - 1);
+  EXPECT_EQ(of(T, RasterCycle::Drain),
+            64U * 64 * 8 / TimingLineBytes + P.Raster.PortCycles);
+  EXPECT_LT(laneDepth({.FrontEnd = 1}), laneDepth({}));
+}
+
+TEST_F(RasterClockTest, LoadedDepthsAreReadFirst) {
+  const auto BeginOf = [&](bool Loads) {
+    CommandWork W = triangles({});
+    W.What.Depth.Loads = Loads;
+    return of(timeOf(std::move(W)), RasterCycle::Begin);
+  };
+  EXPECT_GE(BeginOf(true), BeginOf(false) + 64U * 64 * 8 / TimingLineBytes -
+                               64U * 64 / P.Raster.Banks);
+}
+
+// A word a pixel: 128 bytes of each row of a tile of 32 x 64 pixels.
+TEST_F(RasterClockTest, RangesAndPixelsAreReadFirst) {
+  const auto BeginOf = [&](bool IsLimited, bool StartsLate, bool LoadsPixels) {
+    CommandWork W = pushed({});
+    W.What.Width = 32;
+    W.What.OutputPitch = 1024;
+    W.What.IsLimited = IsLimited;
+    W.What.StartsLate = StartsLate;
+    W.What.LoadsPixels = LoadsPixels;
+    return of(timeOf(std::move(W)), RasterCycle::Begin);
+  };
+  const uint64_t None = BeginOf(false, false, false);
+  constexpr uint64_t Lines = 64U * 32 * 4 / TimingLineBytes;
+  const uint64_t Cleared = 64U * 32 / P.Raster.Banks;
+  EXPECT_GE(BeginOf(true, false, false), None + Lines - Cleared);
+  EXPECT_GE(BeginOf(true, true, false), None + 2 * Lines - Cleared);
+  EXPECT_GE(BeginOf(true, true, true), None + 6 * Lines - Cleared);
+}
+
+TEST_F(RasterClockTest, FragmentsHaltWhileTwoBatchesWait) {
+  RasterClock R(P, MemoryPort(), 1, 4);
+  R.begin(0);
+  std::vector<GaussianWork> Boxes(2, box(0, 0, 16, 4));
+  Boxes[0].ChosenPixels = 40; // two batches, and a half
+  Boxes[1].ChosenPixels = 10; // the third, and 2 of a fourth
+  CommandWork W = triangles(Boxes);
+  W.What.HandsFragments = true;
+  R.expect(0, std::move(W));
+  R.start(0, 0);
+  const uint64_t First = finish(R); // with the third batch
+  EXPECT_TRUE(R.isBusy(0));
+  R.takeBatch(0, First + 1000);
+  const uint64_t Second = finish(R); // with the fourth
+  EXPECT_TRUE(R.isBusy(0));
+  R.takeBatch(0, Second + 1000);
+  finish(R);
+  EXPECT_FALSE(R.isBusy(0));
+  for (unsigned Left = 3; Left != 0; --Left) { // two batches and the end
+    EXPECT_TRUE(R.canTake(0));
+    R.takeBatch(0, R.freeAt());
+  }
+  R.end(R.freeAt());
+  EXPECT_EQ(of(R.time(), RasterCycle::Drain), 2000U);
+  EXPECT_EQ(R.laneWork().Covered[1], 128U);
 }
 
 TEST_F(RasterClockTest, TheEndOfACommandMakesNoRoomForABatch) {

@@ -36,7 +36,7 @@ RasterLanes::Passage RasterLanes::passageOf(const GaussianWork &G,
     const unsigned ByBlocks = cyclesByBlocks(G, P.BlockRows);
     if (ByBlocks < P.Cycles) {
       P.Cycles = ByBlocks;
-      P.Slots = std::min<unsigned>(P.Slots, G.BlockPixels);
+      P.Slots = std::min<unsigned>(P.Slots, G.ChosenPixels);
     }
   }
   return P;
@@ -94,13 +94,21 @@ LaneWork &LaneWork::operator+=(const LaneWork &Other) {
   for (size_t N = 0; N != Blended.size(); ++N)
     Blended[N] += Other.Blended[N];
   Gradients += Other.Gradients;
+  for (size_t N = 0; N != Covered.size(); ++N)
+    Covered[N] += Other.Covered[N];
+  Passed += Other.Passed;
   Moved += Other.Moved;
+  RangeWords += Other.RangeWords;
   BlockRows += Other.BlockRows;
   return *this;
 }
 
 uint64_t LaneWork::allBlended() const {
   return std::accumulate(Blended.begin(), Blended.end(), uint64_t{0});
+}
+
+uint64_t LaneWork::allCovered() const {
+  return std::accumulate(Covered.begin(), Covered.end(), uint64_t{0});
 }
 
 } // namespace vorion::isasim

@@ -18,11 +18,17 @@ struct LaneWork {
   std::array<uint64_t, raster::ExpUnitCount> Evaluated{};
   std::array<uint64_t, raster::BlendUnitCount> Blended{};
   uint64_t Gradients = 0; ///< of pixels, in the backward mode
-  uint64_t Moved = 0;     ///< pixels cleared, loaded or stored with their tile
-  uint64_t BlockRows = 0; ///< of boxes, where blocks of them are tested
+  /// Pixels that lanes got of opaque primitives, by row of FrontEnds, and those
+  /// that were covered and in front.
+  std::array<uint64_t, std::size(raster::FrontEnds)> Covered{};
+  uint64_t Passed = 0;
+  uint64_t Moved = 0;      ///< pixels cleared, loaded or stored with their tile
+  uint64_t RangeWords = 0; ///< of pixels' ranges, loaded with their tile
+  uint64_t BlockRows = 0;  ///< of boxes, where blocks of them are tested
 
   LaneWork &operator+=(const LaneWork &Other);
   uint64_t allBlended() const;
+  uint64_t allCovered() const;
 };
 
 class RasterLanes {

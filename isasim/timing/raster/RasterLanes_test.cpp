@@ -32,7 +32,7 @@ TEST(RasterLanes, ABlockThatIsLeftTakesACycle) {
   RasterLanes Lanes(Skips);
   GaussianWork G = box(2, 2, 16, 16); // in 5 rows of blocks
   G.Blocks = 6;
-  G.BlockPixels = 60;
+  G.ChosenPixels = 60;
   const auto P = Lanes.passageOf(G, false);
   EXPECT_EQ(P.BlockRows, 5U);
   EXPECT_EQ(P.Cycles, 6U);

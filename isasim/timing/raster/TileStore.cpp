@@ -6,17 +6,13 @@
 
 namespace vorion::isasim {
 
-namespace {
-constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
-} // namespace
-
 TileStore::TileStore(const TimingConfig &Params, MemoryPort PortIn)
     : PortCycles(Params.Raster.PortCycles),
       WriteCycles(MemorySystem::writeCycles(Params)), Port(PortIn) {}
 
 uint32_t TileStore::writeLine(MemorySystem &Memory, GaussianFetch &Fetch,
                               const raster::Job &J, Place &Next, unsigned Set) {
-  const uint32_t RowBytes = J.Width * PixelBytes;
+  const uint32_t RowBytes = J.Width * J.pixelBytes();
   const uint32_t Address = J.Output + Next.Row * J.OutputPitch + Next.Byte;
   const uint32_t Line = lineOf(Address);
   const uint32_t Bytes =
@@ -27,7 +23,7 @@ uint32_t TileStore::writeLine(MemorySystem &Memory, GaussianFetch &Fetch,
   Next.Byte += Bytes;
   if (Next.Byte == RowBytes)
     Next = {Next.Row + 1, 0};
-  return Bytes / PixelBytes;
+  return Bytes / J.pixelBytes();
 }
 
 uint64_t TileStore::goesOnAt(const GaussianFetch &Fetch, unsigned Set,
@@ -44,8 +40,7 @@ uint64_t TileStore::writeRest(MemorySystem &Memory,
                               const raster::CommandWork &Of,
                               uint64_t Then) const {
   const auto Write = [&](uint32_t Line) {
-    Memory.access(Port.Cluster,
-                  {.Now = Then++, .Address = Line, .Op = CacheOp::Write});
+    Memory.access(Port, {.Now = Then++, .Address = Line, .Op = CacheOp::Write});
   };
   if (Of.What.KeepsLast && !Of.What.IsBackward && !Of.hasFailed())
     for (unsigned Row = 0; Row != Of.What.Height; ++Row) {
@@ -57,8 +52,7 @@ uint64_t TileStore::writeRest(MemorySystem &Memory,
   if (Of.What.KeepsCounts && !Of.What.IsBackward && !Of.hasFailed())
     Write(lineOf(Of.What.Last));
   if (Of.HandedOver)
-    for (uint32_t Byte = 0; Byte < sizeof(raster::Tail);
-         Byte += TimingLineBytes)
+    for (uint32_t Byte = 0; Byte < Of.What.tailBytes(); Byte += TimingLineBytes)
       Write(Of.What.TailRecord + Byte);
   return Then;
 }

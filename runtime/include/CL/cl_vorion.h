@@ -35,6 +35,11 @@ extern "C" {
  * their local memory does not fit, and 1 if the kernel uses the rasterizer. */
 #define CL_DEVICE_WARPS_PER_CORE_VORION 0x4F81
 
+/* Parameter of clGetDeviceInfo: a cl_uint, the number of DMA engines, with
+ * which copies can overlap kernels in simulated time. 0 without the clock, or
+ * if it has constants for launches and copies (docs/model.md). */
+#define CL_DEVICE_DMA_ENGINES_VORION 0x4F82
+
 /* If compiled kernels could not be stored, a line of the build log contains
  * this text, followed by the reason. The source may be correct. clBuildProgram
  * then returns CL_BUILD_PROGRAM_FAILURE, and a kernel that is compiled at its

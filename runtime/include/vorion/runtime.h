@@ -98,6 +98,7 @@ typedef struct vx_device_info {
   uint64_t largest_free_bytes;       /* largest allocation that can succeed */
   uint32_t max_group_items;          /* largest work-group the ABI supports */
   uint32_t clock_mhz;                /* of the cores */
+  uint32_t dma_engines;              /* that time copies; 0 without a clock */
 } vx_device_info;
 
 vx_status vx_device_get_info(vx_device *device, vx_device_info *info);
@@ -142,6 +143,40 @@ vx_status vx_mem_host_pointer(vx_device *device, uint32_t address,
  * Without observers they return immediately. */
 vx_status vx_mem_written(vx_device *device, uint32_t address, uint64_t size);
 vx_status vx_mem_read(vx_device *device, uint32_t address, uint64_t size);
+
+/* --- Commands of the clock ------------------------------------------------ */
+
+/* Order and copies of a command, for the clock of a machine with DMA engines
+ * (docs/adr/0011-command-processor.md). They change nothing but times, and are
+ * ignored if vx_device_info.dma_engines is 0. Without these calls, every run
+ * and every vx_copy_to_device, vx_copy_from_device, vx_copy_on_device and
+ * vx_fill_device is a command that waits for the one before. */
+
+/* The copies and runs until vx_command_end wait for these commands: numbers
+ * from vx_command_end, 0 for none. host_after: the host has waited for these
+ * before it sent the command. The arrays are copied. */
+vx_status vx_command_begin(vx_device *device, const uint64_t *after,
+                           uint32_t num_after, const uint64_t *host_after,
+                           uint32_t num_host_after);
+/* number: that of the last copy or run since vx_command_begin, 0 if there was
+ * none. */
+vx_status vx_command_end(vx_device *device, uint64_t *number);
+
+typedef enum vx_copy_kind {
+  VX_COPY_TO_DEVICE = 0,
+  VX_COPY_FROM_DEVICE = 1,
+  VX_COPY_ON_DEVICE = 2,
+  VX_COPY_FILL = 3 /* with a pattern */
+} vx_copy_kind;
+
+/* A copy that the host has made through vx_mem_host_pointer. address: on the
+ * device, the target of VX_COPY_ON_DEVICE; from: its source. */
+vx_status vx_command_copy(vx_device *device, vx_copy_kind kind,
+                          uint32_t address, uint32_t from, uint64_t size);
+
+/* The host waits until all copies have ended in the clock. This time belongs to
+ * no run. */
+vx_status vx_command_settle(vx_device *device);
 
 /* --- Images and kernels -------------------------------------------------- */
 

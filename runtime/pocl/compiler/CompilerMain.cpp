@@ -1,8 +1,9 @@
 /// The compiler of OpenCL programs as a process that serves the driver
-/// (CompilerMessages.h): PoCL's front end and passes (ProgramServer.h), and the
-/// machine's compiler and linker (MachineCode.h).
+/// (CompilerMessages.h): PoCL's front end and passes (ProgramServer.h), the
+/// translator of SPIR-V, and the machine's compiler and linker (MachineCode.h).
 
 #include "ProgramServer.h"
+#include "SpirvTranslator.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Environment.h"
 #include "vorion/support/HelpText.h"
@@ -57,13 +58,18 @@ int run(int Argc, char **Argv) {
   std::error_code Failed;
   const std::filesystem::path Bin =
       std::filesystem::read_symlink("/proc/self/exe", Failed).parent_path();
-  const MakeImage Make = [&](const MachineRequest &Request) {
-    return makeImage(Request, Bin.string());
-  };
+  const CompilerSteps Steps = {translateSpirv,
+                               [&](const MachineRequest &Request) {
+                                 return makeImage(Request, Bin.string());
+                               },
+                               linkObjects,
+                               [&](const std::vector<std::string> &Options) {
+                                 return areOptions(Options, Bin.string());
+                               }};
   return serveCalls([&](std::string_view Request) {
     Response Given;
-    Given.Text = answerProgramRequest(Request, Bin.parent_path().string(), Make,
-                                      allPrinted, Given.MayStay);
+    Given.Text = answerProgramRequest(Request, Bin.parent_path().string(),
+                                      Steps, allPrinted, Given.MayStay);
     return Given;
   });
 }

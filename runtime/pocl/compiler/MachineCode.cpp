@@ -1,10 +1,12 @@
 #include "MachineCode.h"
 
 #include "Lld.h"
+#include "MemoryFile.h"
 #include "ObjectCheck.h"
 #include "Program.h"
 #include "vorion/support/Diagnostics.h"
 
+#include "llvm/ADT/StringExtras.h"
 #include "llvm/Support/VirtualFileSystem.h"
 
 #include "clang/Basic/DiagnosticOptions.h"
@@ -16,10 +18,8 @@
 #include "llvm/Support/raw_ostream.h"
 #include "llvm/TargetParser/Host.h"
 
-#include <array>
-#include <cerrno>
+#include <cstring>
 #include <span>
-#include <sys/mman.h>
 #include <unistd.h>
 
 // clang's name. NOLINTNEXTLINE(readability-identifier-naming)
@@ -29,27 +29,9 @@ namespace vorion {
 
 namespace {
 
+constexpr std::string_view Tool = "vorion-compiler";
+
 using Words = std::vector<std::string>;
-
-/// A file in memory, for code that reads and writes files.
-class MemoryFile {
-public:
-  /// Empty, or with \p Contents. Whether there is memory is known by isGood().
-  explicit MemoryFile(std::string_view Contents = {});
-  MemoryFile(const MemoryFile &) = delete;
-  MemoryFile &operator=(const MemoryFile &) = delete;
-  ~MemoryFile();
-
-  bool isGood() const { return Good; }
-  int descriptor() const { return Descriptor; }
-  /// Its name in this process.
-  std::string path() const;
-  std::string contents() const;
-
-private:
-  int Descriptor;
-  bool Good;
-};
 
 /// While it lives, standard output goes to \p File.
 class OutputTo {
@@ -63,32 +45,6 @@ private:
   int Before;
 };
 
-MemoryFile::MemoryFile(std::string_view Contents)
-    : Descriptor(memfd_create("vorion", MFD_CLOEXEC)), Good(Descriptor >= 0) {
-  while (Good && !Contents.empty()) {
-    const ssize_t Written = write(Descriptor, Contents.data(), Contents.size());
-    if (Written > 0)
-      Contents.remove_prefix(static_cast<size_t>(Written));
-    else
-      Good = Written < 0 && errno == EINTR;
-  }
-}
-
-MemoryFile::~MemoryFile() { close(Descriptor); }
-
-std::string MemoryFile::path() const {
-  return "/proc/self/fd/" + std::to_string(Descriptor);
-}
-
-std::string MemoryFile::contents() const {
-  std::string All;
-  std::array<char, 65536> Part{};
-  for (ssize_t Got = 0; (Got = pread(Descriptor, Part.data(), Part.size(),
-                                     static_cast<off_t>(All.size()))) > 0;)
-    All.append(Part.data(), static_cast<size_t>(Got));
-  return All;
-}
-
 OutputTo::OutputTo(const MemoryFile &File) : Before(dup(STDOUT_FILENO)) {
   dup2(File.descriptor(), STDOUT_FILENO);
 }
@@ -98,12 +54,19 @@ OutputTo::~OutputTo() {
   close(Before);
 }
 
-constexpr const char *NoMemory =
-    "memory ran out while it was compiled, expected more";
 constexpr const char *NotCompiled =
     "cannot be compiled for the machine, expected a kernel that can";
 constexpr const char *NotLinked =
     "cannot be linked, expected a kernel that can";
+
+/// Why one of \p Files cannot be used; empty if all can.
+std::string problemOf(std::initializer_list<const MemoryFile *> Files) {
+  for (const MemoryFile *File : Files)
+    if (const int Problem = File->problem())
+      return std::string(strerror(Problem)) +
+             ", expected memory for what is compiled";
+  return {};
+}
 
 /// The call of the compiler proper that vorion-clang makes for \p Line. Empty,
 /// and messages on standard error, if there is none.
@@ -140,29 +103,93 @@ bool runCompiler(Words Call) {
                     {Pointers[0], nullptr, false}) == 0;
 }
 
-/// The program of \p Object, which \p Out gets first.
-Expected<std::string> linkObject(const MemoryFile &Object,
-                                 const MemoryFile &Out) {
-  const std::string Bytes = Object.contents();
-  if (const auto Good =
-          link::checkInput(std::as_bytes(std::span(Bytes)), Object.path());
-      !Good)
-    return Good.error();
-  const auto Arguments = link::programArguments({Object.path(), "-o", "-"});
+/// An object as a file for lld.
+struct ObjectFile {
+  std::string Name; ///< in messages
+  MemoryFile File;
+};
+
+/// Writes what lld says to standard error, with the names of \p Objects instead
+/// of those of their files.
+class LinkerMessages : public llvm::raw_ostream {
+public:
+  explicit LinkerMessages(std::span<const ObjectFile> Objects)
+      : raw_ostream(/*unbuffered=*/true), Objects(Objects) {}
+
+private:
+  void write_impl(const char *Text, size_t Size) override {
+    std::string Message(Text, Size);
+    for (const ObjectFile &Object : Objects)
+      rename(Message, Object.File.path(), Object.Name);
+    llvm::errs() << Message;
+  }
+  uint64_t current_pos() const override { return 0; }
+
+  static void rename(std::string &Message, const std::string &Path,
+                     const std::string &Name) {
+    for (size_t At = 0; (At = Message.find(Path, At)) != std::string::npos;) {
+      const size_t End = At + Path.size();
+      if (End < Message.size() && llvm::isDigit(Message[End])) {
+        At = End; // the file of another one
+        continue;
+      }
+      Message.replace(At, Path.size(), Name);
+      At += Name.size();
+    }
+  }
+
+  std::span<const ObjectFile> Objects;
+};
+
+/// The program of \p Objects, which \p Out gets first.
+Expected<std::string> linkTo(const MemoryFile &Out,
+                             std::span<const ObjectFile> Objects) {
+  std::vector<std::string> Words;
+  for (const ObjectFile &Object : Objects) {
+    const std::string Bytes = Object.File.contents();
+    if (const auto Good =
+            link::checkInput(std::as_bytes(std::span(Bytes)), Object.Name);
+        !Good)
+      return Good.error();
+    Words.push_back(Object.File.path());
+  }
+  Words.insert(Words.end(), {"-o", "-"});
+  const auto Arguments = link::programArguments(Words);
   if (!Arguments)
     return Arguments.error();
   {
     const OutputTo Linked(Out);
-    if (!link::callLld(*Arguments))
+    LinkerMessages Messages(Objects);
+    if (!link::callLld(*Arguments, Messages))
       return Error{"", "the link failed, expected no errors of ld.lld-19 (see "
                        "its messages above)"};
   }
   std::string Program = Out.contents();
   const auto Completed = link::completeProgram(
-      std::as_writable_bytes(std::span(Program)), "the program");
+      std::as_writable_bytes(std::span(Program)), Tool, "");
   if (!Completed)
     return Completed.error();
   return Program;
+}
+
+/// The image of \p Objects.
+MachineAnswer linkFiles(std::span<const ObjectFile> Objects) {
+  MachineAnswer Made;
+  const MemoryFile Out;
+  Made.Problem = problemOf({&Out});
+  for (const ObjectFile &Object : Objects)
+    if (Made.Problem.empty())
+      Made.Problem = problemOf({&Object.File});
+  if (!Made.Problem.empty())
+    return Made;
+  Expected<std::string> Program = linkTo(Out, Objects);
+  if (Program) {
+    Made.Image = std::move(*Program);
+  } else {
+    reportError(Tool, Program.error());
+    Made.Problem = NotLinked;
+  }
+  return Made;
 }
 
 /// What vorion-clang is called with to make an object of \p Bitcode on standard
@@ -186,28 +213,39 @@ Words commandLine(const MachineRequest &Request, const std::string &Bin,
 
 MachineAnswer makeImage(const MachineRequest &Request, const std::string &Bin) {
   MachineAnswer Made;
-  const MemoryFile Bitcode(Request.Bitcode), Object, Out;
-  if (!Bitcode.isGood() || !Object.isGood() || !Out.isGood()) {
-    Made.Problem = NoMemory;
+  const MemoryFile Bitcode(Request.Bitcode);
+  const ObjectFile Object{Request.Name, MemoryFile()};
+  Made.Problem = problemOf({&Bitcode, &Object.File});
+  if (!Made.Problem.empty())
     return Made;
-  }
   Words Call = compilerCall(commandLine(Request, Bin, Bitcode));
   {
-    const OutputTo Compiled(Object);
+    const OutputTo Compiled(Object.File);
     if (Call.empty() || !runCompiler(std::move(Call))) {
       Made.Problem = NotCompiled;
       return Made;
     }
   }
-  Expected<std::string> Program = linkObject(Object, Out);
-  if (Program) {
-    Made.Image = std::move(*Program);
-    Made.Object = Object.contents();
-  } else {
-    reportError("vorion-compiler", Program.error());
-    Made.Problem = NotLinked;
-  }
+  if (Request.WantsImage)
+    Made = linkFiles({&Object, 1});
+  Made.Object = Object.File.contents();
   return Made;
+}
+
+MachineAnswer linkObjects(const std::vector<NamedObject> &Objects) {
+  std::vector<ObjectFile> Files;
+  Files.reserve(Objects.size());
+  for (const NamedObject &Object : Objects)
+    Files.push_back({Object.Name, MemoryFile(Object.Bytes)});
+  return linkFiles(Files);
+}
+
+bool areOptions(const std::vector<std::string> &Options,
+                const std::string &Bin) {
+  Words Line = {Bin + "/vorion-clang", "-x", "c", "-fsyntax-only", "/dev/null"};
+  Line.insert(Line.end(), Options.begin(), Options.end());
+  Words Call = compilerCall(Line);
+  return !Call.empty() && runCompiler(std::move(Call));
 }
 
 } // namespace vorion

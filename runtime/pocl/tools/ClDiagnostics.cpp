@@ -21,6 +21,8 @@ constexpr const char *WantedModule = ", expected a valid module";
 /// its line ends before what the compiler printed.
 constexpr std::string_view KernelRefused = "vorion: error: ";
 constexpr std::string_view PrintedFollows = ", expected a kernel that can\n";
+/// How the compiler's own lines begin, behind lld's.
+constexpr std::string_view CompilerSays = "vorion-compiler: ";
 
 std::vector<std::string> linesOf(const std::string &Text) {
   std::vector<std::string> Lines;
@@ -146,12 +148,25 @@ Error kernelError(const std::string &Input, const std::string &Output) {
   return {Input, "no code was generated, expected at least one kernel"};
 }
 
-Error linkerError(const std::string &Image, const std::string &Output) {
+std::string linkerLog(const std::string &Output) {
+  return Output.substr(0, Output.find(CompilerSays));
+}
+
+Error linkerError(const std::string &Image,
+                  const std::vector<OfflineKernel> &Kernels,
+                  const std::string &Output) {
+  std::string Where = Image;
+  std::size_t First = std::string::npos;
+  for (const OfflineKernel &Kernel : Kernels)
+    if (const std::size_t At = Output.find(Kernel.Name + ":("); At < First) {
+      First = At;
+      Where = Kernel.Name;
+    }
   const auto Cause = after(Output, "error: ");
   // One of ours says itself what it expects.
   if (Cause && Cause->find(", expected ") != std::string::npos)
-    return {Image, "cannot be linked: " + *Cause};
-  return {Image, "cannot be linked" + (Cause ? " (" + *Cause + ")" : "") +
+    return {Where, "cannot be linked: " + *Cause};
+  return {Where, "cannot be linked" + (Cause ? " (" + *Cause + ")" : "") +
                      ", expected kernels that can be linked to one program"};
 }
 

@@ -4,6 +4,8 @@
 #include "vorion/support/Expected.h"
 
 #include <string>
+#include <vector>
+#include <vorion_offline.h>
 
 namespace vorion {
 
@@ -28,7 +30,13 @@ Error optionError(const std::string &Output);
 /// the machine, by what was printed.
 Error kernelError(const std::string &Input, const std::string &Output);
 
-/// The linker's first error, without the names of the programs that said it.
-Error linkerError(const std::string &Image, const std::string &Output);
+/// What lld said in \p Output.
+std::string linkerLog(const std::string &Output);
+
+/// The linker's first error, without the names of the programs that said it: of
+/// the first of \p Kernels that it names, or of \p Image if it names none.
+Error linkerError(const std::string &Image,
+                  const std::vector<OfflineKernel> &Kernels,
+                  const std::string &Output);
 
 } // namespace vorion

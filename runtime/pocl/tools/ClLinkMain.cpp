@@ -2,25 +2,26 @@
 /// vorion-clang runs when it is given nothing but .cl and .spv files and is
 /// asked for a program.
 ///
-/// PoCL's offline compiler builds each file for any group size (or the one that
-/// reqd_work_group_size gives) and leaves an object a kernel in its cache, here
-/// a folder of our own; vorion-link makes one image of them.
+/// PoCL's library compiles each kernel for any group size (or the one that
+/// reqd_work_group_size gives) as it does for a program of OpenCL, and links
+/// their objects (vorion_offline.h). All of it stays in memory.
 
-#include "ChildProcess.h"
 #include "ClCommandLine.h"
 #include "ClDiagnostics.h"
 
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
 #include "vorion/support/HelpText.h"
 #include "vorion/support/Outputs.h"
-#include "vorion/support/TemporaryFolder.h"
 #include "vorion/support/Tool.h"
 #include "vorion/support/Version.h"
 
-#include <algorithm>
+#include <vorion_offline.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -62,7 +63,7 @@ constexpr std::string_view Usage =
     "  -O1 to -O3, -Os, -Oz   accepted; otherwise kernels are compiled with "
     "-O2\n"
     "  -Ofast, -ffast-math    the same as -cl-fast-relaxed-math\n"
-    "  -v                     print the programs that are run\n"
+    "  -v                     print the version and the compiler that is run\n"
     "  -save-temps[=cwd|obj]  keep KERNEL.bc and KERNEL.o of each kernel, in "
     "this folder\n"
     "                         or beside the image; 'vorion-llc -mcpu=vorion' "
@@ -82,6 +83,10 @@ constexpr std::string_view Usage =
     "                         divergent branches and why; as a table, or as "
     "JSON to\n"
     "                         standard output or FILE\n"
+    "  --explorer             show source, LLVM IR, machine code and cycles in "
+    "one page that\n"
+    "                         follows the file (vorion-clang --explorer "
+    "--help)\n"
     "\n";
 
 std::string textOf(const fs::path &File) {
@@ -89,48 +94,8 @@ std::string textOf(const fs::path &File) {
   return {std::istreambuf_iterator<char>(Stream), {}};
 }
 
-/// What PoCL left in its cache for one file.
-struct Built {
-  /// A kernel's name to its object.
-  std::map<std::string, std::string> Objects;
-  /// Whether a kernel was not compiled: the innermost folder has no object.
-  bool Missing = false;
-  /// What the compiler said.
-  std::string Log;
-};
-
-/// An object lies in each innermost folder.
-Expected<Built> findBuilt(const fs::path &Cache) {
-  Built Found;
-  std::error_code Problem;
-  fs::recursive_directory_iterator Entry(Cache, Problem);
-  for (; !Problem && Entry != fs::recursive_directory_iterator();
-       Entry.increment(Problem)) {
-    if (Entry->path().filename() == "build.log")
-      Found.Log += textOf(Entry->path());
-    if (!Entry->is_directory(Problem) || Problem)
-      continue;
-    bool Innermost = true;
-    fs::path Object;
-    fs::directory_iterator Inside(Entry->path(), Problem);
-    for (; !Problem && Inside != fs::directory_iterator();
-         Inside.increment(Problem)) {
-      Innermost &= !Inside->is_directory(Problem);
-      if (Inside->path().extension() == ".o")
-        Object = Inside->path();
-    }
-    if (!Innermost || Entry->path().filename() == "tempfiles")
-      continue;
-    if (Object.empty())
-      Found.Missing = true;
-    else
-      Found.Objects[Object.stem().string()] = Object.string();
-  }
-  if (Problem)
-    return Error{Cache.string(), "cannot be read: " + Problem.message() +
-                                     ", expected a folder of compiled kernels"};
-  return Found;
-}
+/// Kernels by name.
+using Kernels = std::map<std::string, OfflineKernel>;
 
 /// Refuses an output that could not be written, before any work is done.
 Expected<Success> claimOutput(const ClCommandLine &Line) {
@@ -159,106 +124,76 @@ std::string quoted(const std::string &Name) {
   return Text + "\"";
 }
 
-/// With -v, runs as runChild() does and says what.
-Ran runStep(const ClCommandLine &Line,
-            const std::vector<std::string> &Arguments) {
-  if (Line.Verbose) {
-    for (const std::string &Argument : Arguments)
-      std::cerr << ' ' << quoted(Argument);
-    std::cerr << '\n';
-  }
-  return runChild(Arguments);
+/// The compiler of the installation in \p Root.
+Expected<OfflineCompiler *> openCompiler(const fs::path &Root) {
+  const fs::path File = Root / "pocl/lib/libvorion-pocl.so";
+  void *Library = dlopen(File.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void *Function = Library ? dlsym(Library, OfflineCompilerFunction) : nullptr;
+  if (!Function)
+    return Error{File.string(),
+                 std::string(dlerror()) +
+                     ", expected the library of this build",
+                 ExitCode::Internal};
+  return reinterpret_cast<OfflineCompilerOf *>(Function)();
 }
 
-/// -save-temps: copies what was made of \p Kernel into \p Folder.
-Expected<Success> keepTemporaries(const std::string &Kernel,
-                                  const fs::path &Object,
+Expected<Success> keep(const fs::path &File, const std::string &Bytes) {
+  return writeFileAtomically(File.string(), Bytes.data(), Bytes.size());
+}
+
+/// -save-temps: writes what was made of \p Kernel into \p Folder.
+Expected<Success> keepTemporaries(const OfflineKernel &Kernel,
                                   const fs::path &Folder) {
-  std::error_code Problem;
-  for (const auto &Made : fs::directory_iterator(Object.parent_path())) {
-    const fs::path Kind = Made.path().extension();
-    if (Kind != ".bc" && Kind != ".o")
-      continue;
-    const fs::path Copy = Folder / (Kernel + Kind.string());
-    fs::copy_file(Made.path(), Copy, fs::copy_options::overwrite_existing,
-                  Problem);
-    if (Problem)
-      return Error{Copy.string(),
-                   "cannot be written: " + Problem.message() +
-                       ", expected a writable location for -save-temps"};
-  }
-  return Success{};
+  const auto Kept = keep(Folder / (Kernel.Name + ".bc"), Kernel.Bitcode);
+  return Kept ? keep(Folder / (Kernel.Name + ".o"), Kernel.Object) : Kept;
 }
 
-/// Refuses options that the machine's compiler does not take, before any kernel
-/// is blamed.
-Expected<Success> checkOptions(const ClCommandLine &Line,
-                               const fs::path &Root) {
-  if (Line.ToCheck.empty())
-    return Success{};
-  std::vector<std::string> Arguments = {(Root / "bin/vorion-clang").string(),
-                                        "-x", "c", "-fsyntax-only",
-                                        "/dev/null"};
-  Arguments.insert(Arguments.end(), Line.ToCheck.begin(), Line.ToCheck.end());
-  const Ran Compiler = runStep(Line, Arguments);
-  return Compiler.Succeeded ? Expected<Success>(Success{})
-                            : optionError(Compiler.Output);
+/// The image, which can be executed as those of lld can.
+Expected<Success> writeImage(const fs::path &File, const std::string &Image) {
+  const auto Written = keep(File, Image);
+  std::error_code Ignored;
+  using fs::perms;
+  if (Written && fs::is_regular_file(File, Ignored))
+    fs::permissions(File,
+                    perms::owner_exec | perms::group_exec | perms::others_exec,
+                    fs::perm_options::add, Ignored);
+  return Written;
 }
 
-/// Compiles one input with everything PoCL makes of it in \p Folder.
-Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
-                           const fs::path &Root, const fs::path &Folder) {
-  std::error_code Problem;
-  const fs::path Cache = Folder / "cache";
-  fs::create_directories(Cache, Problem);
-  setenv("VORION_KERNEL_FOLDER", Cache.c_str(), 1);
-  // The compiler sees text without a name, so a copy names its origin, for
-  // messages and debuggers; headers beside the file are found by its folder.
-  const fs::path Copy = Folder / "input";
-  std::ofstream Writer(Copy, std::ios::binary);
-  if (!isSpirv(Input))
-    Writer << "#line 1 \"<command line>\"\n"
-           << Line.Prelude << "#line 1 " << quoted(Input.string()) << "\n";
-  Writer << textOf(Input);
-  Writer.close();
-  if (!Writer)
-    return Error{Copy.string(),
-                 "cannot be written, expected room for a copy of " +
-                     Input.string()};
+/// Compiles one input.
+Expected<Kernels> compileOne(const ClCommandLine &Line, const fs::path &Input,
+                             OfflineCompiler &Compiler) {
   const Expected<std::string> Beside =
       includeOption((Input.parent_path() / ".").string());
   if (!Beside)
     return Beside.error();
-  std::vector<std::string> Arguments = {(Root / "pocl/bin/poclcc").string(),
-                                        "-b", Line.BuildOptions + *Beside, "-o",
-                                        (Folder / "binary").string()};
-  if (isSpirv(Input))
-    Arguments.emplace_back("-s");
-  Arguments.push_back(Copy.string());
-  const Ran Compiler = runStep(Line, Arguments);
-  Expected<Built> Found = findBuilt(Cache);
-  if (!Found)
-    return Found;
+  OfflineProgram Program;
+  Program.IsSpirv = isSpirv(Input);
+  Program.Options = Line.BuildOptions + *Beside;
+  Program.WantsBitcode = Line.Temporaries.has_value();
+  // The compiler sees text without a name, so the text names its origin, for
+  // messages and debuggers; headers beside the file are found by its folder.
+  if (!Program.IsSpirv)
+    Program.Text = "#line 1 \"<command line>\"\n" + Line.Prelude + "#line 1 " +
+                   quoted(Input.string()) + "\n";
+  Program.Text += textOf(Input);
+  OfflineAnswer Answer = Compiler.compile(Program);
   // Errors and warnings as clang prints them: with lines, carets and notes.
   // What PoCL's linker says of them follows, and is said below.
-  std::cerr << Found->Log.substr(0, Found->Log.find("Error(s) while linking"))
+  if (!Program.IsSpirv)
+    std::cerr << Answer.Log.substr(0, Answer.Log.find("Error(s) while linking"))
+              << std::flush;
+  if (!Answer.IsBuilt)
+    return compilerError(Input.string(), Answer.Log, Answer.Printed);
+  std::cerr << machineLog(Answer.Printed)
+            << (Line.ForMachine.empty() ? "" : remarks(Answer.Printed))
             << std::flush;
-  if (Compiler.Signal != 0)
-    return Error{Input.string(),
-                 std::string("the compiler crashed (") +
-                     strsignal(Compiler.Signal) +
-                     "), expected an image or errors in the file",
-                 ExitCode::Internal};
-  if (!Compiler.Succeeded)
-    return compilerError(Input.string(), Found->Log, Compiler.Output);
-  std::cerr << machineLog(Compiler.Output)
-            << (Line.ForMachine.empty() ? "" : remarks(Compiler.Output))
-            << std::flush;
-  if (Found->Missing)
-    return kernelError(Input.string(), Compiler.Output);
-  if (Found->Objects.empty())
-    return Error{Input.string(), "no kernel, expected at least one"};
-  return Found;
+  if (!Answer.IsWhole || Answer.Kernels.empty())
+    return kernelError(Input.string(), Answer.Printed);
+  Kernels ByName;
+  for (OfflineKernel &Kernel : Answer.Kernels)
+    ByName.emplace(Kernel.Name, std::move(Kernel));
+  return ByName;
 }
 
 Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
@@ -267,66 +202,60 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
       return Good;
   if (const Expected<Success> Good = claimOutput(Line); !Good)
     return Good;
-  if (const Expected<Success> Good = checkOptions(Line, Root); !Good)
-    return Good;
-  const auto Folder = TemporaryFolder::make("vorion");
-  if (!Folder)
-    return Folder.error();
-  // The loader takes a library here, too: no path is written anywhere.
-  setenv("OCL_ICD_VENDORS", (Root / "pocl/lib/libvorion-pocl.so").c_str(), 1);
   setenv("VORION_ROOT", Root.c_str(), 1);
-  // The device's driver compiles kernels that nobody has started, too.
-  setenv("VORION_COMPILE_ALL", "1", 1);
-  if (Line.Temporaries)
-    setenv("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", "1", 1);
-  if (Line.Verbose)
-    std::cerr << versionLine(Tool) << '\n';
   if (!Line.ForMachine.empty()) {
     std::ostringstream Words;
     for (const std::string &Word : Line.ForMachine)
       Words << std::quoted(Word) << ' ';
     setenv("VORION_REMARKS", Words.str().c_str(), 1);
   }
+  const Expected<OfflineCompiler *> Opened = openCompiler(Root);
+  if (!Opened)
+    return Opened.error();
+  OfflineCompiler &Compiler = **Opened;
+  if (Line.Verbose)
+    std::cerr << versionLine(Tool) << "\n " << Compiler.commandLine() << '\n';
+  // Options that the machine's compiler does not take are refused before any
+  // kernel is blamed.
+  if (std::string Printed;
+      !Line.ToCheck.empty() && !Compiler.areOptions(Printed))
+    return optionError(Printed);
 
-  std::vector<std::string> Link = {(Root / "bin/vorion-link").string(), "-o",
-                                   Line.Output.string()};
+  std::vector<OfflineKernel> Objects;
   std::map<std::string, std::string> Owners;
   // As clang does, all files are compiled, whatever is wrong with the first.
   std::optional<Error> Failed;
-  for (size_t I = 0; I < Line.Inputs.size(); ++I) {
-    const std::string Input = Line.Inputs[I].string();
-    const Expected<Built> Found =
-        compileOne(Line, Line.Inputs[I], Root,
-                   fs::path(Folder->path()) / std::to_string(I));
-    if (isEnding())
-      return Success{};
+  for (const fs::path &File : Line.Inputs) {
+    const std::string Input = File.string();
+    Expected<Kernels> Found = compileOne(Line, File, Compiler);
     if (!Found) {
       if (Failed)
         reportError(Tool, *Failed);
       Failed = Found.error();
       continue;
     }
-    for (const auto &[Kernel, Object] : Found->Objects) {
-      const auto [Owner, New] = Owners.emplace(Kernel, Input);
+    for (auto &[Name, Kernel] : *Found) {
+      const auto [Owner, New] = Owners.emplace(Name, Input);
       if (!New)
-        return Error{Input, "kernel " + Kernel + " is also in " +
-                                Owner->second +
+        return Error{Input, "kernel " + Name + " is also in " + Owner->second +
                                 ", expected kernels with different names"};
       if (Line.Temporaries)
-        if (const auto Kept =
-                keepTemporaries(Kernel, Object, *Line.Temporaries);
-            !Kept)
+        if (const auto Kept = keepTemporaries(Kernel, *Line.Temporaries); !Kept)
           return Kept.error();
-      Link.push_back(Object);
+      Kernel.Name = fmt::format("{}: kernel {}", Input, Name);
+      Objects.push_back(std::move(Kernel));
     }
   }
   if (Failed)
     return *Failed;
-  const Ran Linker = runStep(Line, Link);
-  if (!Linker.Succeeded)
-    return linkerError(Line.Output.string(), Linker.Output);
-  std::cerr << Linker.Output << std::flush;
-  return Success{};
+  std::string Printed;
+  const std::string Image = Compiler.link(Objects, Printed);
+  if (Image.empty()) {
+    std::cerr << linkerLog(Printed) << std::flush;
+    return linkerError(Line.Output.string(), Objects, Printed);
+  }
+  std::cerr << Printed << std::flush;
+  return writeImage(Line.Output, Image);
 }
 
 int run(int Argc, char **Argv) {
@@ -338,7 +267,6 @@ int run(int Argc, char **Argv) {
     printOut("{}\n", versionLine("vorion-cl-link"));
     return 0;
   }
-  passEndsToChildren();
   std::error_code Problem;
   const fs::path Root =
       fs::read_symlink("/proc/self/exe", Problem).parent_path().parent_path();
@@ -347,7 +275,6 @@ int run(int Argc, char **Argv) {
   if (!Line)
     return reportError(Tool, Line.error());
   const Expected<Success> Done = compile(*Line, Root);
-  endIfAsked();
   return Done ? 0 : reportError(Tool, Done.error());
 }
 

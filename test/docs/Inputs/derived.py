@@ -1,5 +1,6 @@
-"""usage: derived.py DOCS: checks figures of DOCS' pages that follow from a table: the claims of energy.md on watts and our rows of
-prior-art.md from the frames of energy.md, and the costs of cameras.md from tables/cameras.md."""
+"""usage: derived.py DOCS: checks figures of DOCS' pages that follow from a table: the claims on watts and our rows of prior-art.md
+from the frames of tables/energy-frames.md, the costs of cameras.md from tables/cameras.md, and the README's verdicts on the
+paper from paper-results.md."""
 
 import re
 import sys
@@ -31,7 +32,7 @@ def span(texts):
     return min(texts, key=float), max(texts, key=float)
 
 
-energy = read("energy.md").split("## What frames take")[1].split("\n## ")[0]
+energy = read("tables/energy-frames.md").split("## What frames take")[1].split("\n## ")[0]
 frames = [cells(line) for line in energy.splitlines() if line.startswith("| ")][1:]
 
 
@@ -45,9 +46,9 @@ chips = [row for row in frames if row[1].startswith("`prototype") and "simt" not
 fast = [row for row in chips if "100 MHz" not in row[0]]
 slow = [row for row in chips if "100 MHz" in row[0]]
 assert fast and slow
-want("energy.md", f"{watts(fast, 5)}, on {len(fast)} views and machines")
-want("energy.md", watts(fast, 6))
-want("energy.md", watts(slow, 5))
+want("tables/energy-frames.md", f"{watts(fast, 5)}, on {len(fast)} views and machines")
+want("tables/energy-frames.md", watts(fast, 6))
+want("tables/energy-frames.md", watts(slow, 5))
 
 
 def short(text):
@@ -71,10 +72,19 @@ for line in read("tables/cameras.md").split("## Errors")[0].splitlines():
     if len(row) == 7 and row[4].endswith("%"):
         costs.setdefault(row[0], []).append(float(row[4].split()[0]))
 assert costs
-for camera, more in costs.items():
-    low, high = (f"{x:.0f}" if max(more) >= 100 else f"{x:.1f}" for x in (min(more), max(more)))
-    page = read("cameras.md")
-    line = next((line for line in page.splitlines() if re.match(rf"\| {re.escape(camera)}\b.* % \|$", line)), "")
-    both = low if low == high else f"{low} to {high}"
-    if not line.endswith(f"| {both} % |"):
-        sys.exit(f"{docs}/cameras.md has no '| {camera} | {both} % |', which follows from a table")
+sentence = " ".join(read("cameras.md").split("## What each costs")[1].split())
+for camera in ("OpenCV's distortion", "OpenCV's fisheye", "equirectangular", "pinhole, unscented"):
+    both = f"{min(costs[camera]):.0f} to {max(costs[camera]):.0f} %"
+    if both not in sentence:
+        sys.exit(f"{docs}/cameras.md has no '{both}' for {camera}, which follows from a table")
+
+with open(f"{docs}/../README.md", encoding="utf-8") as file:
+    verdicts = file.read().split("| the paper | verdict | measured here |")[1].split("\n\n")[0]
+FIGURE = re.compile(r"\d+(?:\.\d+)?")
+claims = set(FIGURE.findall(read("paper-results.md")))
+rows = [cells(line) for line in verdicts.splitlines() if line.startswith("| ")]
+assert len(rows) == 10
+for row in rows:
+    for figure in FIGURE.findall(" ".join(row)):
+        if figure not in claims:
+            sys.exit(f"README.md has '{figure}' in '{row[0]}', which paper-results.md has not")

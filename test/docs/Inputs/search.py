@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """Searches the site for words in headless Chromium, which opens a page from its file and reaches no network.
 
-usage: search.py [--patience SECONDS] SITE WORD...
-Prints a line for each word: the word and the pages found, in the order shown. A message in the browser's console and a
+usage: search.py [--patience SECONDS] [--sections] SITE WORD...
+Prints a line for each word: the word and the pages found, in the order shown. With --sections, it prints of each page found
+its best section. A message in the browser's console and a
 request that failed are errors. Exit codes: 0 done, 1 the search does not work, 2 usage.
 """
 
 import argparse
+import json
 import os
+import re
 import sys
 import tempfile
 import time
@@ -20,6 +23,15 @@ RESULTS = """(() => {
   const said = document.querySelector(".md-search-result__meta").textContent.trim();
   if (!/matching document|No matching/.test(said)) return null;
   return [...document.querySelectorAll(".md-search-result__item > .md-search-result__link")].map(a => a.href);
+})()"""
+
+
+# Types a word in place of the one before, and forgets its results.
+TYPE = """(() => {
+  document.querySelector(".md-search-result__meta").textContent = "";
+  const query = document.querySelector("input.md-search__input");
+  query.value = %s;
+  query.dispatchEvent(new Event("keyup", {bubbles: true}));
 })()"""
 
 
@@ -51,23 +63,30 @@ class OfflineBrowser(Browser):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--patience", type=float, default=60, help="seconds; only a search that never ends takes them")
+    parser.add_argument("--sections", action="store_true")
     parser.add_argument("site")
     parser.add_argument("word", nargs="+")
     options = parser.parse_args()
     site = os.path.abspath(options.site)
     with tempfile.TemporaryDirectory() as folder:
         browser = OfflineBrowser(folder)
-        found = {}
-        for word in options.word:
-            # A page deep in the tree, because the names of its scripts begin with ../.
-            browser.open(f"file://{site}/docs/paper/rates.html?q={word}")
+        # A page deep in the tree, because the names of its scripts begin with ../. It reads its index once.
+        browser.open(f"file://{site}/docs/paper/rates.html?q={options.word[0]}")
+        found = {options.word[0]: browser.results(options.patience)}
+        for word in options.word[1:]:
+            browser.value(TYPE % json.dumps(word))
             found[word] = browser.results(options.patience)
         browser.close()
     for word, places in found.items():
         if places is None:
             print(f"search.py: error: the search for {word} never ended: {browser.complaints}", file=sys.stderr)
             return 1
-        print(f"{word}:", *(os.path.relpath(p.removeprefix("file://").split("#")[0].split("?")[0], site) for p in places))
+        places = [re.sub(r"\?[^#]*", "", os.path.relpath(p.removeprefix("file://"), site)) for p in places]
+        if options.sections:
+            places = dict(reversed([p.split("#") for p in places if "#" in p])).items()
+            print(f"{word}:", *(f"{page}#{section}" for page, section in reversed(places)))
+        else:
+            print(f"{word}:", *(p.split("#")[0] for p in places))
     if browser.complaints:
         print(f"search.py: error: the browser complains: {browser.complaints}", file=sys.stderr)
         return 1

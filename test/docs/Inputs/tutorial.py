@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Does what a page says, as somebody who reads it in a shell that is new and stands in the repository.
 
-usage: tutorial.py [--all] [--tables] [--without START]... [--installed TREE | --put NAME=FILE...] PAGE FOLDER
+usage: tutorial.py [--all] [--tables] [--within PERCENT] [--without START]... [--installed TREE | --put NAME=FILE...] PAGE FOLDER
 FOLDER is made anew. It shows the repository and its build, and has a build/ of its own for what the page writes.
 A fenced text of the page is
 
@@ -17,6 +17,8 @@ of a tool, and has no word in capitals, for which the reader puts something else
 out those that begin so, for example because they do not end by themselves.
 --installed TREE stands for somebody who has the installed tree alone, and types its env.sh.
 --put gives a page a file that it expects and that takes long to make.
+--within PERCENT holds numbers of printed texts to the page's within a part, for pages with figures of the clock. Numbers with
+a decimal point may differ by 1, too.
 Exit codes: 0 all as the page says, 1 not, 2 usage.
 """
 
@@ -33,6 +35,7 @@ TEXT = re.compile(r"^( *)```(\w+)( minutes)?\n(.*?)^ *```$", re.M | re.S)
 ROW = re.compile(r"^\|.*\| `((?:splat|vorion-\w+) [^`]*)` \|$", re.M)
 # As sentences write what was counted.
 COUNT = re.compile(r"(?<![\w.,])\d{1,3}(?:,\d{3})+(?![\w,]*\d)")
+NUMBER = re.compile(r"(\d+(?:\.\d+)?)")
 PLACEHOLDER = re.compile(r"(?<![$\w])[A-Z]{3,}\b")
 
 
@@ -60,6 +63,19 @@ def line_pattern(line):
 def printed_pattern(text):
     lines = (line.rstrip() for line in text.splitlines())
     return "".join("(?:.*\n)*?" if line == "..." else line_pattern(line) for line in lines)
+
+
+def is_near(page, ours, percent):
+    """Whether a number is near the page's: within the percentage or, with a decimal point as shares of time have it, within 1."""
+    return abs(float(page) - float(ours)) <= max(percent / 100 * float(page), 1 if "." in page else 0)
+
+
+def is_printed(text, output, percent):
+    """Whether a page's text is what was printed. With a percentage, blanks do not count, and numbers need only be near."""
+    if percent is None:
+        return re.fullmatch(printed_pattern(text), output)
+    page, ours = (NUMBER.split(re.sub(r"[ \t]+", " ", part)) for part in (text, output))
+    return page[::2] == ours[::2] and all(is_near(a, b, percent) for a, b in zip(page[1::2], ours[1::2]))
 
 
 class Step:
@@ -116,7 +132,7 @@ def hold_counts(page, counts, outputs):
             fail(f"{page}:{line}: no command prints {count}")
 
 
-def run(page, steps, folder):
+def run(page, steps, folder, percent=None):
     """Runs the steps and compares what they print, which it returns."""
     # As a new shell has it: no variable of ours is set.
     kept = {name: os.environ[name] for name in ("LANG", "TMPDIR", "POCL_CACHE_DIR") if name in os.environ}
@@ -132,7 +148,7 @@ def run(page, steps, folder):
              f"{outputs[-1][-4000:]}")
     for step, output in zip(steps, outputs):
         output = re.sub(r"[ \r]+$", "", output, flags=re.M)
-        if step.printed is not None and not re.fullmatch(printed_pattern(step.printed), output):
+        if step.printed is not None and not is_printed(step.printed, output, percent):
             fail(f"{page}:{step.line}: these commands\n{step.commands}print\n{output}the page says\n{step.printed}")
     return outputs
 
@@ -141,6 +157,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--tables", action="store_true")
+    parser.add_argument("--within", type=float, metavar="PERCENT")
     parser.add_argument("--without", action="append", default=[])
     parser.add_argument("--build", default=os.path.join(ROOT, "build", "dev"))
     parser.add_argument("--installed")
@@ -160,7 +177,7 @@ def main():
             step.commands = step.commands.replace(". scripts/env.sh", f". {options.installed}/share/vorion/env.sh")
     else:
         show_repository(options.folder, options.build, options.put)
-    outputs = run(options.page, steps, options.folder)
+    outputs = run(options.page, steps, options.folder, options.within)
     if not options.put:
         hold_counts(options.page, counts_of(text), outputs)
     print(f"{options.page}: {len(steps)} steps, {sum(s.printed is not None for s in steps)} outputs as the page says")

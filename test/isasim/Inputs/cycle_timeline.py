@@ -33,22 +33,31 @@ for event in timeline["traceEvents"]:
             spent[row].update(event["args"])
 timed = [run["time"] for run in stats["runs"]]
 assert ends["runs", "runs"] == sum(time["cycles"] for time in timed)
-for group, key in (("cores", "cores"), ("rasterizers", "rasterizers"), ("pixel units", "pixel_units")):
-    one = group.removesuffix("s")
+HOST = "command processor and DMA"
+for group, one, key in (("cores", "core", "cores"), ("rasterizers", "rasterizer", "rasterizers"),
+                        ("pixel units", "pixel unit", "pixel_units"),
+                        (HOST, "command processor", "command_processors"), (HOST, "DMA engine", "dma_engines")):
     units = len(timed[0][key])
     for unit in range(units):
         row = group, f"{one} {unit}"
         for reason, cycles in spent[row].items():
             assert cycles == sum(time[key][unit][reason] for time in timed), (group, unit, reason)
         assert spent[row].total() == ends["runs", "runs"], row
-    print(f"{group}: {units} rows")
-for group in ("L2", "last-level cache", "DRAM"):
+    print(f"{one if group == HOST else group}: {units} rows")
+for group in ("link", "L2", "last-level cache", "DRAM"):
     print(f"{group}: {sum(g == group for g, name in figures)} figures")
 # The figures are tenths of a per cent, rounded; what a run began may end behind it.
 end = ends["runs", "runs"]
-busy = sum(value / 100 * (behind - begin) for (group, name), told in figures.items() if group == "DRAM"
-           for (begin, value), (behind, _) in zip(told, told[1:] + [(end, 0)]))
-exact = sum(time["dram"]["bus_ps"] * time["clock_mhz"] / 1e6 for time in timed)
-channels = sum(group == "DRAM" for group, name in figures)
-rounded = 0.00051 * channels * end
-assert exact - rounded - 16 <= busy <= exact + rounded + 4 * channels, (busy, exact)
+
+
+def check_busy(exact, rows):
+    busy = sum(value / 100 * (behind - begin) for row in rows
+               for (begin, value), (behind, _) in zip(figures[row], figures[row][1:] + [(end, 0)]))
+    rounded = 0.00051 * len(rows) * end
+    assert exact - rounded - 16 <= busy <= exact + rounded + 4 * len(rows), (rows, busy, exact)
+
+
+check_busy(sum(time["dram"]["bus_ps"] * time["clock_mhz"] / 1e6 for time in timed), [row for row in figures if row[0] == "DRAM"])
+for way in ("to", "from"):
+    row = "link", f"{way} the L2, % busy"
+    check_busy(sum(time["link"][f"busy_{way}_l2"] for time in timed), [row] if row in figures else [])

@@ -37,7 +37,7 @@ CASES = (
     ("splat render scene.ply --cameras cameras.json --view ", "front close above all"),
     ("splat render scene.ply --cameras cameras.json --view fr", "front !close"),
     ("splat render scene.ply --cameras=cameras.json --view fr", "front !close"),
-    ("splat accuracy scene.ply --cameras cameras.json --views front,cl", "front,close"),
+    ("splat accuracy scene.ply --cameras cameras.json --view front,cl", "front,close"),
     ("splat info sc", "scene.ply"),
     ("splat train --path ", "raster simt"),
     ("splat train --exp", "!--exp"),

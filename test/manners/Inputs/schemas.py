@@ -61,6 +61,8 @@ splat("analyze", "demo.ply", "--cameras", "demo.json", "--view", "front", "--wid
 splat("render", *view, "-o", "a.npz", "--explain")
 splat("render", *view, "-o", "b.npz", "--path", "simt")
 splat("compare", "a.npz", "b.npz")
+run(python, os.path.join(inputs, "mesh.py"), "ball", "m.obj")
+splat("render", *view, "-o", "m.npz", "--mesh", "m.obj")
 splat("render", *view, "-o", "a.npz", "--time", "--energy", "--heat-map", "heat")
 check_file("heat.json")
 os.rename("report.json", "time.json")

@@ -34,6 +34,8 @@ def camera(**changes):
 
 def attempt(what, *options):
     out = f"{folder}/p.npz"
+    if os.path.exists(out):
+        os.remove(out)
     done = subprocess.run(["splat", "render", f"{folder}/s.ply", "--cameras", f"{folder}/c.json", "--view", "v", "-o", out,
                            *options], capture_output=True, text=True)
     lines = done.stderr.strip().splitlines()

@@ -18,6 +18,7 @@ std::vector<HardCase> catalogue() {
 std::vector<TrainingCase> trainingCases() {
   std::vector<TrainingCase> Cases;
   addRayOrders(Cases);
+  addMeshes(Cases);
   addGradients(Cases);
   addMethodGradients(Cases);
   addSteps(Cases);
@@ -45,11 +46,16 @@ std::vector<CaseElsewhere> casesElsewhere() {
        "isasim/raster/HardBackward_test.cpp"},
       {"NaN in a record", "status VR_NAN, no pixel written",
        "isasim/raster/Rasterizer_test.cpp"},
-      {"NaN or infinity in a scene file, every parameter",
+      {"NaN or infinity without a meaning in a scene file, every parameter",
        "one line that names the Gaussian, exit code 3",
        "test/numerics/not-finite.test"},
       {"NaN or infinity in a camera, cut-off, background or dilation",
        "one line, exit code 2 or 3", "test/numerics/not-finite.test"},
+      {"scenes and captures in map coordinates, where fp32 has steps of 1/64 "
+       "to 1/2",
+       "pictures within 100 dB of those at home, PSNR of training within 0.01 "
+       "dB; both are computed from an origin nearby",
+       "test/render/far-coordinates.test"},
       {"no Gaussian at all", "one line, exit code 3",
        "test/numerics/not-finite.test"},
       {"pairs beyond memory, and beyond 2^32",

@@ -274,6 +274,8 @@ void addThroughLenses(std::vector<TrainingCase> &Cases) {
       {&lenses::OpenCv, "back through all twelve coefficients and the "
                         "Jacobian's own derivative"},
       {&lenses::Division, "back through a quotient by a square root"},
+      {&lenses::Eucm,
+       "back through a quotient by a square root plus the depth"},
       {&lenses::Fisheye, "back through the angle's polynomial, where "
                          "differences of nearly equal terms cancel"},
       {&lenses::Orthographic, "depth moves nothing on the picture"},

@@ -31,11 +31,16 @@ double expUnit(const RenderOptions &O, std::size_t Gaussians) {
          2. * O.AlphaCutoff / 255 + behindStop(O, Gaussians);
 }
 
-/// Operands of the blend's multiplications rounded to a unit roundoff u
-/// (docs/hard-cases.md, "Narrow blending", has the proof): a product is off by
-/// d = 2 u + u^2, a colour by 3 d / (1 - d) however many layers there are.
-/// Where one arithmetic stops and the other does not, what lies behind adds the
-/// other's T, of which the layer leaves at least 1 - 0.99 (1 + d).
+/// Operands of the blend's multiplications rounded to a unit roundoff u: a
+/// product is off by d = 2 u + u^2, a colour by 3 d / (1 - d) however many
+/// layers there are. Proof: a weight r(a) r(T) is a T (1 + e), and r(c) r(w) is
+/// c w (1 + e), each with |e| <= d. Let E be T's error before a layer and E'
+/// behind it. T' = T - w gives E' = (1 - a) E - a e T, so
+/// a |E| <= |E| - |E'| + d a T. Over all layers the sum of a |E| telescopes to
+/// at most d times the sum of a T, which is at most 1 / (1 - d). A weight is
+/// off by a E + a e T, so all together by 2 d / (1 - d), and the last roundings
+/// add d. Where one arithmetic stops and the other does not, what lies behind
+/// adds the other's T, of which the layer leaves at least 1 - 0.99 (1 + d).
 double blendUnit(const RenderOptions &O, std::size_t Gaussians) {
   const bool Fp16 = O.Arithmetic == splat::BlendUnit::Fp16;
   const double U = unitRoundoff(O.Arithmetic);

@@ -30,6 +30,8 @@ splat::LensCoefficients someCoefficients(const LensModel *M) {
             0.01,  0.003, -0.001, 0.002,  0.001, 0.005};
   if (M == &lenses::Division)
     return {-0.3};
+  if (M == &lenses::Eucm)
+    return {0.6, 1.2};
   if (M == &lenses::Fisheye)
     return {0.06, -0.02, 0.005, -0.0006};
   splat::LensCoefficients K{};

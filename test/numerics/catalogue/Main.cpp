@@ -7,6 +7,7 @@
 #include "Table.h"
 #include "Tool.h"
 #include "TrainingCase.h"
+#include "commands/OutputFile.h"
 #include "commands/Progress.h"
 #include "io/ReportHead.h"
 #include "scene/formats/Ply.h"
@@ -23,7 +24,7 @@ struct Arguments {
   CheckPlan Plan;
   FuzzPlan Fuzz;
   bool List = false, Verbose = false, Table = false, Check = false;
-  std::string Write, Out = "hard-cases";
+  std::string Write, Out = "hard-cases", Figures;
 
   /// Whether more or less than what is shown is to be checked.
   bool checksOnly() const {
@@ -79,8 +80,12 @@ Expected<Success> run(const Arguments &A) {
     P.RowFile = A.Plan.RowFile;
     return fuzz(P);
   }
-  if (!A.checksOnly())
-    return show(withProgress(A.Plan), A.Out);
+  if (!A.checksOnly()) {
+    auto Shown = show(withProgress(A.Plan), A.Out);
+    return Shown && !A.Figures.empty()
+               ? splat::writeFigures(A.Out + "/index.html", A.Figures)
+               : Shown;
+  }
   const auto Counts = check(A.Plan, A.Verbose);
   if (!Counts)
     return Counts.error();
@@ -116,6 +121,7 @@ int main(int Count, char **Values) {
       App.add_option("--out", A.Out,
                      "Folder for pictures, index.html and hard-cases.json")
           ->capture_default_str());
+  vorion::splat::addFiguresOption(App, A.Figures);
   App.add_option_function<std::string>(
          "--set",
          [&A](const std::string &Set) {

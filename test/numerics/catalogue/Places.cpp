@@ -145,6 +145,9 @@ void addPlaces(std::vector<HardCase> &Cases) {
                        {"crop-by-plain-bend"}));
   Cases.push_back(crop("crop-through-division", ", through a division",
                        {&lenses::Division, {-0.1}}, {}));
+  Cases.push_back(crop("crop-through-eucm",
+                       ", through the enhanced unified camera model",
+                       {&lenses::Eucm, {0.5, 1.2}}, {}));
   Cases.push_back(crop("crop-of-parallel-rays", ", of parallel rays",
                        {&lenses::Orthographic}, {"crop-by-plain-start"}));
   addCropsThroughOthers(Cases);

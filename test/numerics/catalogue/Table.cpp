@@ -79,7 +79,8 @@ std::string tableOf(const Rows &R) {
                         F.Errors["simt"], F.Single, F.Digits[0], F.Digits[1],
                         F.Kept, F.Checks, F.Detected, F.Broken);
   }
-  Text += "\n| case of training, or of the order along rays | why | contract | "
+  Text += "\n| case of training, of the order along rays, or of a mesh | why | "
+          "contract | "
           "raster | simt | atomics | warp | broken kernels noticed "
           "|\n|---|---|---|---|---|---|---|---|\n";
   for (const TrainingCase &C : trainingCases()) {

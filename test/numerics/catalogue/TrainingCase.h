@@ -89,6 +89,7 @@ void addSteps(std::vector<TrainingCase> &Cases);
 void addDensity(std::vector<TrainingCase> &Cases);
 void addMethods(std::vector<TrainingCase> &Cases);
 void addMethodGradients(std::vector<TrainingCase> &Cases);
+void addMeshes(std::vector<TrainingCase> &Cases);
 /// @}
 
 } // namespace vorion::test

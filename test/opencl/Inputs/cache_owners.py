@@ -72,7 +72,7 @@ def places():
     kept("HOME", os.path.join(home, ".cache/pocl/kcache"), HOME=home)
     shutil.rmtree(os.path.join(home, ".cache"))
     kept("empty variables", os.path.join(home, ".cache/pocl/kcache"), HOME=home, POCL_CACHE_DIR="", XDG_CACHE_HOME="",
-         POCL_KERNEL_CACHE="", VORION_KERNEL_FOLDER="", VORION_ROOT="", POCL_DEVICES="", VORION_CAPTURE="",
+         POCL_KERNEL_CACHE="", VORION_ROOT="", POCL_DEVICES="", VORION_CAPTURE="",
          VORION_REMARKS="", VORION_COMPILE_ALL="", VORION_SYSTEM_CACHE="", VORION_TOOL_SERVERS="", TMPDIR="")
 
 

@@ -9,6 +9,7 @@ FOLDER becomes the kernel cache. Prints one line, and one more for each build th
 
 import argparse
 import collections
+import contextlib
 import os
 import random
 import resource
@@ -115,7 +116,8 @@ def main():
             other.join()
         # Then all is well, if not for a compiler that is still limited.
         for process in compilers(mark) if way == "limited" else ():
-            os.kill(process, signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError): # it has ended
+                os.kill(process, signal.SIGKILL)
         failed = done["failed"]
         problem = problem or build(number) or ("fails afterwards" if done["failed"] > failed else "")
         if problem:

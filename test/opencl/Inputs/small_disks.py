@@ -12,6 +12,7 @@ import argparse
 import collections
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -26,6 +27,9 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("program", nargs=argparse.REMAINDER)
     options = parser.parse_args()
+    if not options.program or not shutil.which(options.program[0]):
+        parser.error(f"{' '.join(options.program[:1])}: no such program, expected one that uses OpenCL")
+    options.program[0] = os.path.abspath(shutil.which(options.program[0])) # it runs in another folder
     os.makedirs(options.folder, exist_ok=True)
     environment = {**os.environ, "POCL_CACHE_DIR": os.path.join(options.folder, "cache"), "TMPDIR": options.folder}
     good = subprocess.run(options.program, capture_output=True, text=True, check=True,

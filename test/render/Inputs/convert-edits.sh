@@ -18,6 +18,14 @@ sed 's/"position": \[[^]]*\]/"position": [3, 4, 5]/; s/"rotation": \[\[.*\]\]/"r
 splat render s.ply --cameras c.json -o s.pfm >said
 splat render moved.ply --cameras m.json -o m.pfm >said
 splat compare s.pfm m.pfm --min-db 60 >compared && echo "a moved scene from a moved camera is the same"
+# Doubles far away come home: fp32 holds no more there than halves.
+splat convert far.ply -o home.ply --translate=-412345,-5654321,-120 | sed -n '$s/^/home: /p'
+splat convert far.ply -o floats.ply | sed -n '$s/^/far: /p'
+splat convert s.ply -o gone.ply --translate=412345,5654321,120 | sed -n '$s/^/gone: /p'
+splat convert far.ply -o corner.ply --crop-box 412344.9,5654320.9,0,412345.1,5654321.1,999 | sed -n '1s/^/corner: /p'
+splat convert s.ply -o corner.ply --crop-box=-0.1,-0.1,-120,0.1,0.1,879 | sed -n '1s/^/corner: /p'
+splat render home.ply --cameras c.json -o h.pfm >said
+splat compare s.pfm h.pfm --min-db 100 >compared && echo "doubles from far away are drawn as at home"
 attempt s.ply -o no.ply --crop-sphere 99,0,0,1
 attempt s.ply -o no.ply --scale=-1
 attempt s.ply -o no.ply --crop-box 1,0,0,0,1,1

@@ -25,6 +25,7 @@ COLMAP = {
     "FULL_OPENCV": (False, [K1, K2, P1, P2, K3, K4, K5, K6], FULL),
     "SIMPLE_DIVISION": (True, [K2], {"k": K2, "camera_model": "SIMPLE_DIVISION"}),
     "DIVISION": (False, [K1], {"k": K1, "camera_model": "DIVISION"}),
+    "EUCM": (False, [0.6, 1.2], {"alpha": 0.6, "beta": 1.2, "camera_model": "EUCM"}),
     "OPENCV_FISHEYE": (False, [K1, K2, K3, K4], FISH),
     "SIMPLE_RADIAL_FISHEYE": (True, [K1], {"k1": K1, "camera_model": "SIMPLE_RADIAL_FISHEYE"}),
     "RADIAL_FISHEYE": (True, [K1, K2], {**RADIAL, "camera_model": "RADIAL_FISHEYE"}),

@@ -2,7 +2,7 @@
 """Writes a view of each camera model, from the first view of another file.
 
 usage: lenses.py CAMERAS.json OUT.json
-opencv, fold, pincushion, division, simple-division (a crop), fisheye, around, orthographic, sphere, turned (a
+opencv, fold, pincushion, division, simple-division (a crop), eucm, eucm-crop, fisheye, around, orthographic, sphere, turned (a
 sphere that looks back, so that its seam is where the first view looks),
 rolling and bent (a pinhole and a fisheye that move while they expose)
 """
@@ -25,6 +25,8 @@ def main(source, target):
         "pincushion": {"k1": 0.2},
         "division": {"camera_model": "DIVISION", "k": -0.3},
         "simple-division": {"camera_model": "SIMPLE_DIVISION", "k": 0.1, "cx": 1.2 * width},
+        "eucm": {"camera_model": "EUCM", "alpha": 0.6, "beta": 1.2, "fx": 0.6 * focal, "fy": 0.5 * focal},
+        "eucm-crop": {"camera_model": "EUCM", "alpha": 1, "beta": 0.5, "cx": 1.2 * width},
         "fisheye": {"camera_model": "OPENCV_FISHEYE", "k1": 0.06, "k2": -0.02, "k3": 0.005, "k4": -0.0006},
         "around": {"is_fisheye": True, "fx": height / 6, "fy": height / 6},
         "orthographic": {"camera_model": "ORTHOGRAPHIC", "fx": focal / 3, "fy": focal / 3},

@@ -19,7 +19,7 @@ attempt "depth as png" render $scene $view -o x.png --depth x.png
 attempt "pairs as text" render $scene $view -o x.png --dump-pairs x.csv
 attempt "report as picture" render $scene $view -o x.png --json x.PNG
 attempt "gradients as npy" gradients $scene $view --upstream u.npz -o x.npy
-attempt "plots as one" analyze $scene $view --plots x.svg
+attempt "page as svg" analyze $scene $view --html x.svg
 attempt "counts as svg" analyze $scene $view --json x.svg
 attempt "demo as splat" demo-scene -o x.splat --gaussians 1000
 attempt "demo's cameras" demo-scene -o x.ply --cameras x.txt --gaussians 1000

@@ -9,10 +9,12 @@ import clock
 apart, beside = (json.load(open(f))["time"] for f in sys.argv[1:])
 for report in apart, beside:
     assert report["pictures"] == len(report["latency_ms"]) == 3
-    assert report["bound_ms"] <= report["kernel_ms"] <= report["total_ms"]
+    # Sums over stages, which may round otherwise.
+    assert report["bound_ms"] <= report["kernel_ms"] <= report["total_ms"] * (1 + 1e-9)
     for units in clock.stored():
-        spent = {sum(unit[reason] for reason in clock.reasons(units)) for unit in report["sum"][units]}
-        assert spent == {report["sum"]["cycles"]}, (units, spent)
+        for unit in report["sum"][units]:
+            spent = sum(unit[reason] for reason in clock.reasons(units))
+            assert spent == report["sum"]["cycles"], (units, spent)
 # The rasterizers' work does not change with what else runs, but for memory.
 assert abs(beside["rasterizer_busy_ms"] / apart["rasterizer_busy_ms"] - 1) < 0.2
 working = lambda r, names: sum(s["time"]["cycles"] - s["time"]["rasterizers"][0]["idle"]

@@ -82,10 +82,18 @@ def check_up():
 TURNS = """(async () => {
   const { Eye } = await import('./eye.js');
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const cross = (a, b) => [0, 1, 2].map(i => a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
+  // A level camera 10 before the middle of the box.
+  const level = (up, middle) => {
+    const down = up.map(v => -v), right = cross(down, Math.abs(up[2]) < 0.7 ? [0, 0, 1] : [0, 1, 0]);
+    const forward = cross(right, down);
+    return { width: 96, height: 64, fx: 80, fy: 80, cx: 48, cy: 32, position: middle.map((v, i) => v - 10 * forward[i]),
+      rotation: [0, 1, 2].map(i => [right[i], down[i], forward[i]]) };
+  };
   const all = [];
   for (const up of UPS) for (const tilt of [0, 0.4, -0.4]) {
     const box = [[-1, -2, -3], [3, 2, 1]];
-    const eye = new Eye(Eye.ahead(box, { width: 96, height: 64 }, up), box, { width: 96, height: 64 }, up);
+    const eye = new Eye(level(up, [1, 0, -1]), box, { width: 96, height: 64 }, up);
     const { right, down } = eye, c = Math.cos(tilt), s = Math.sin(tilt);
     eye.right = right.map((v, i) => c * v + s * down[i]);
     eye.down = down.map((v, i) => c * v - s * right[i]);

@@ -32,26 +32,6 @@ def check_fit():
     assert 1 < off < 3 and b > 7
 
 
-def check_deal():
-    # 9 8 | 6 7 (back) | 5 4: the second row goes the other way.
-    near(scaling.deal([9, 8, 7, 6, 5, 4], 2), 20)
-    near(scaling.deal([9, 8, 7, 6, 5, 4], 1), 39)
-    near(scaling.deal([9, 8, 7], 5), 9)
-    assert scaling.jobs_of([3, 10], 4) == [2, 3, 2, 3, 0, 1, 1, 1]
-
-
-def check_model():
-    unit = {"blend": 700, "clip": 0, "fetch": 0, "hazard": 0, "begin": 20, "flush": 0, "drain": 80, "idle": 5, "commands": 2}
-    rows = {row["rasterizers"]: row for row in scaling.model([5, 2], 1, [unit], 300)}
-    near(rows[1]["compute"], 800)
-    near(rows[2]["compute"], 550)
-    near(rows[1024]["compute"], 550)
-    rows = {row["rasterizers"]: row for row in scaling.model([5, 2], 1, [unit], 6400)}
-    near(rows[16]["cycles_with_memory"], 6400)
-    near(rows[64]["cycles"], 6400)
-    near(rows[64]["cycles_with_memory"], 1600)
-
-
 def check_verdicts():
     rows = [{"scene": "a", "view": "x", "machine": "p", "v": 2}, {"scene": "b", "view": "y", "machine": "p", "v": 5}]
     value = lambda row: row["v"]
@@ -162,9 +142,12 @@ def check_machines():
     for count in scaling.SIMULATED:
         config = machines.config(f"{count}-rasterizers")
         assert config["clusters"] * config["sockets_per_cluster"] == count
-        assert count * config["cores_per_socket"] <= machines.MOST_CORES
+        assert config["cores_per_socket"] == scaled["cores_per_socket"]
+        assert ("stack_bytes" in config) == (count >= 512)
         if count == scaling.RASTERIZERS_A_MEMORY:
             assert all(scaled[key] == value for key, value in config.items() if key != "machine")
+    assert machines.channels(scaling.grown(scaling.RASTERIZERS_A_MEMORY)) == machines.channels("scaled")
+    assert machines.channels(scaling.grown(1024)) == scaling.MOST_CHANNELS
     for name in machines.NAMED:
         assert machines.parameters(name)["timing"]["dram"]["channels"]
 

@@ -16,10 +16,12 @@ Pictures and gradients have the same bits as those of `splat render` and `splat 
 meanings of those commands. docs/python.md of the project says more.
 """
 
+from . import _tree  # first: shows the device to OpenCL
 from ._machine import Error, InputError, LimitError, TrapError, UsageError, __version__
-from .camera import Camera, read_cameras
+from .camera import Camera, cameras, read_cameras, write_cameras
+from .command import command, compare
 from .machine import Contributors, Gradients, Machine, Picture
 from .scene import Scene
 
 __all__ = ["Camera", "Contributors", "Error", "Gradients", "InputError", "LimitError", "Machine", "Picture", "Scene",
-           "TrapError", "UsageError", "__version__", "read_cameras"]
+           "TrapError", "UsageError", "__version__", "cameras", "command", "compare", "read_cameras", "write_cameras"]

@@ -1,16 +1,20 @@
-"""Pinhole cameras."""
+"""Cameras."""
 
 from __future__ import annotations
 
 import operator
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _machine
 from ._machine import UsageError
-from ._words import path_bytes
+from ._words import path_bytes, words
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 
 def _matrix(name, values, size):
@@ -21,7 +25,10 @@ def _matrix(name, values, size):
 
 
 class Camera:
-    """A pinhole camera: x right, y down, z forward. Pixel (i, j) covers [i, i+1) x [j, j+1)."""
+    """A camera: x right, y down, z forward. Pixel (i, j) covers [i, i+1) x [j, j+1).
+
+    One of matrices is a pinhole; read_cameras() and cameras() give cameras of all models (docs/cameras.md).
+    """
 
     def __init__(self, width: int, height: int, intrinsics: ArrayLike, world_to_camera: ArrayLike | None = None, *,
                  name: str = "view"):
@@ -57,6 +64,11 @@ class Camera:
         """The view of INRIA's cameras.json whose img_name is `view`, or else whose id is that number."""
         return cls._of(_machine.Camera.read(path_bytes(path), str(view)))
 
+    @classmethod
+    def found(cls, scene: Scene, width: int = 640, height: int = 360) -> Camera:
+        """The automatic view of a scene, that of splat render without --cameras (docs/captures.md)."""
+        return cls._of(_machine.Camera.found(scene._native, width, height))
+
     def __repr__(self) -> str:
         return f"<vorion.Camera {self.name!r}, {self.width}x{self.height}>"
 
@@ -64,6 +76,11 @@ class Camera:
     def name(self) -> str:
         """Of the view."""
         return self._native.name
+
+    @property
+    def model(self) -> str:
+        """Of the lens, as COLMAP names it: "PINHOLE", "OPENCV_FISHEYE" and so on (docs/cameras.md)."""
+        return self._native.model
 
     @property
     def width(self) -> int:
@@ -88,6 +105,31 @@ class Camera:
         matrix[:3, :3] = np.array(self._native.rotation).T
         matrix[:3, 3] = -matrix[:3, :3] @ np.array(self._native.position)
         return matrix
+
+
+def cameras(scene: Scene, path: str | os.PathLike | None = None, *, view: str | list[str] | None = None,
+            distorted: bool = False, size: str | None = None, orbit: int | None = None, frames: int | None = None,
+            up: str | None = None) -> list[Camera]:
+    """The cameras that `splat render` chooses with its options of these names.
+
+    path: --cameras, a file or a folder of any kind that splat reads; None for the automatic view
+    view: names of views, or "all"; None for the first, or all of a motion
+    distorted: of a capture, the lenses of its photographs
+    size: "WIDTHxHEIGHT", at the cameras' horizontal field of view
+    orbit, frames: so many views around the scene, or along a path through the views
+    up: "x", "-x", "y", "-y", "z" or "-z", for an orbit and an automatic view
+    """
+    asked = words({"distorted": distorted or None, "size": size, "orbit": orbit, "frames": frames, "up": up})
+    if path is not None:
+        asked += ["--cameras", os.fsdecode(path_bytes(path))]
+    for name in [view] if isinstance(view, str) else view or []:
+        asked += ["--view", name]
+    return [Camera._of(native) for native in _machine.cameras(scene._native, asked)]
+
+
+def write_cameras(path: str | os.PathLike, views: list[Camera]) -> None:
+    """Writes a cameras.json from which read_cameras() reads the same numbers."""
+    _machine.write_cameras(path_bytes(path), [camera._native for camera in views])
 
 
 def read_cameras(path: str | os.PathLike) -> list[Camera]:

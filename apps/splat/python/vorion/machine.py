@@ -40,6 +40,16 @@ class _Drawn:
         return self.report["time"]["sum"]["cycles"] if "time" in self.report else None
 
     @property
+    def effects(self) -> list[dict]:
+        """Of each effect its "name", whether it is "needed" and "on", and why (docs/effects.md)."""
+        return self.report["effects"]
+
+    @property
+    def joules(self) -> float | None:
+        """The frame's energy, where `energy` asked for it (docs/energy.md); the report's "energy" has its parts."""
+        return self.report["energy"]["joules"]["value"] if "energy" in self.report else None
+
+    @property
     def milliseconds(self) -> float | None:
         """The same with launches and copies, at the machine's clock."""
         return self.report["time"]["frame_ms"] if "time" in self.report else None
@@ -122,7 +132,8 @@ class Machine:
                ztiles: int | None = None, pixel_unit: str | None = None, skip_saturated: bool | None = None,
                simt_tile: int | None = None, simt_group: int | None = None, effects: str | None = None,
                near: float | None = None, projection: str | None = None, order: str | None = None,
-               ray_window: int | None = None, cull_blocks: bool | None = None) -> Picture:
+               ray_window: int | None = None, cull_blocks: bool | None = None, energy: bool | None = None,
+               technology: str | None = None, voltage: float | None = None) -> Picture:
         """Draws `scene` as `camera` sees it.
 
         depth: blend depths, too
@@ -149,6 +160,7 @@ class Machine:
         order: "depth" or "ray", the depths by which a pixel of the cores' path blends
         ray_window: Gaussians that it finds at a time by "ray": 4, 8 or 16; changes no bit
         cull_blocks: leave out blocks of Gaussians of which a pinhole sees none; changes no bit
+        energy, technology, voltage: run the clock, and count joules with a file of a process node, at volts
         """
         _check(scene, Scene, "scene")
         _check(camera, Camera, "camera")
@@ -158,7 +170,7 @@ class Machine:
                        "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
                        "effects": effects, "near": near, "projection": projection, "order": order,
                        "ray_window": ray_window, "cull_blocks": cull_blocks, "depth_as": depth_as,
-                       "contributors": contributors})
+                       "contributors": contributors, "energy": energy, "technology": technology, "voltage": voltage})
         image, alpha, by, report = self._native.render(scene._native, camera._native, asked, depth, normals, time)
         top = by["contributors"]
         return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None)

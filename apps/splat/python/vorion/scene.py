@@ -27,14 +27,15 @@ class Scene:
 
     Every parameter is a float32 array that shares the scene's memory: what is written into it, as by
     `scene.means -= rate * gradient`, is what is drawn next. Their number stays. Nothing may write while the machine draws
-    in another thread.
+    in another thread. Means for which fp32 has too few digits, as in map coordinates, are a float64 copy that cannot be
+    written: assign the property (`scene.means = scene.means - rate * gradient`).
     """
 
     def __init__(self, means: ArrayLike, log_scales: ArrayLike, quats: ArrayLike, opacity_logits: ArrayLike,
                  sh: ArrayLike, *, antialiased: bool = False, dilation: float | None = None):
         """A scene of copies of arrays.
 
-        means: (N, 3), world units
+        means: (N, 3), world units; more digits than float32 are kept where a picture shows them
         log_scales: (N, 3), natural logarithms of standard deviations
         quats: (N, 4), w x y z, of any length
         opacity_logits: (N,), opacity = 1 / (1 + exp(-logit))
@@ -44,8 +45,9 @@ class Scene:
         """
         sh = np.asarray(sh, dtype=np.float32)
         self._native = _machine.Scene.sized(sh.shape[0], _degree(sh), antialiased, dilation)
-        self.means, self.log_scales, self.quats = means, log_scales, quats
-        self.opacity_logits, self.sh = opacity_logits, sh
+        for name, values in {"means": means, "log_scales": log_scales, "quats": quats, "opacity_logits": opacity_logits,
+                             "sh": sh}.items():
+            setattr(self, name, values)
 
     @classmethod
     def from_activated(cls, means: ArrayLike, quats: ArrayLike, scales: ArrayLike, opacities: ArrayLike,
@@ -130,13 +132,18 @@ class Scene:
         mine[...] = values
 
     @property
-    def means(self) -> NDArray[np.float32]:
-        """(N, 3): x, y, z in world units."""
+    def means(self) -> NDArray[np.float32] | NDArray[np.float64]:
+        """(N, 3): x, y, z in world units; float64 and read-only where float32 has too few digits."""
         return self._native.means
 
     @means.setter
     def means(self, values: ArrayLike):
-        self._set("means", values)
+        values = np.asarray(values)
+        mine = self._native.means
+        if values.shape == mine.shape and (values.dtype != np.float32 or mine.dtype != np.float32):
+            self._native.set_means(values)
+        else:
+            self._set("means", values)
 
     @property
     def log_scales(self) -> NDArray[np.float32]:

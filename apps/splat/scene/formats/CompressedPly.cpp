@@ -8,6 +8,7 @@
 // largest, opacity 8, harmonics 8 for -4 to 4. Older files have no bounds of
 // the colour, which then goes from 0 to 1.
 #include "io/PlyFile.h"
+#include "scene/UpDirection.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
 #include "scene/formats/Ply.h"
@@ -90,7 +91,7 @@ Expected<Harmonics> harmonicsOf(const std::string &Where, const PlyHeader &H,
   Result.Degree = Properties % 3 == 0 ? shDegreeOf(Properties / 3) : -1;
   if (Result.Degree < 1)
     return Error{Where, fmt::format("element sh has {} properties, expected 9, "
-                                    "24 or 45 (degree 1 to 3)",
+                                    "24, 45 or 72 (degree 1 to 4)",
                                     Properties)};
   if (Result.Element->Count != Count)
     return Error{Where,
@@ -160,6 +161,7 @@ Expected<SceneFile> parseCompressedPly(const std::string &Where, Bytes File,
   SceneFile Result;
   Result.Format = SceneFormat::CompressedPly;
   Result.DrawnAs = std::move(*DrawnAs);
+  Result.Up = upOfComments(Header.Comments);
   Scene &S = Result.Gaussians = Scene::sized(Vertex->Count, Later->Degree);
   const auto &Logits = byteOpacityLogits();
   const std::size_t ShEach = 3 * S.coefficients();

@@ -19,7 +19,7 @@ struct Kind {
 constexpr Kind Kinds[] = {
     {{"x", "y", "z"},
      [](const Scene &S, std::size_t I, std::size_t A) -> double {
-       return S.Means[3 * I + A];
+       return S.roundedMean(3 * I + A);
      }},
     {{"scale_x", "scale_y", "scale_z"},
      [](const Scene &S, std::size_t I, std::size_t A) -> double {

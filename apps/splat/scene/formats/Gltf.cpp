@@ -6,6 +6,7 @@
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
 #include "scene/formats/GltfData.h"
+#include "scene/formats/SogFolder.h"
 #include "vorion/support/File.h"
 #include "vorion/support/FileKind.h"
 #include "vorion/support/Json.h"
@@ -147,7 +148,7 @@ std::string prefixed(const std::string &Name) {
 Expected<Success> Primitive::readHarmonics(Scene &S) const {
   std::vector<GltfAccessor> Bands;
   int Degree = 0;
-  for (int Band = 1; Band <= MaxShDegree + 1; ++Band) {
+  for (int Band = 1; Band <= MaxStoredShDegree; ++Band) {
     std::size_t Found = 0;
     for (int K = 0; K < 2 * Band + 1; ++K) {
       const std::string Each = fmt::format("SH_DEGREE_{}_COEF_{}", Band, K);
@@ -156,9 +157,6 @@ Expected<Success> Primitive::readHarmonics(Scene &S) const {
         return A.error();
       if (!*A)
         continue;
-      if (Band > MaxShDegree)
-        return wrong(fmt::format("harmonics of degree {}, expected at most {}",
-                                 Band, MaxShDegree));
       if ((*A)->Count != S.size())
         return wrong(fmt::format("attribute {} has {} elements, expected {}",
                                  Each, (*A)->Count, S.size()));
@@ -290,46 +288,26 @@ Expected<Scene> Primitive::read(std::set<std::size_t> &SpzRead,
   return readPlain(Left);
 }
 
-/// Moves \p S by \p M: a rotation after a scale along each axis.
+/// Moves \p S by \p M.
 Expected<Success> place(const std::string &Where, const std::string &Name,
                         Scene &S, const GltfMatrix &M) {
-  Similarity By;
-  std::array<double, 3> Lengths{};
+  if (!std::ranges::all_of(M, [](double V) { return std::isfinite(V); }))
+    return Error{Where, Name + ": the product of its nodes' transforms is not "
+                               "finite, expected smaller transforms"};
+  Affine By;
   for (std::size_t C = 0; C < 3; ++C) {
     for (std::size_t R = 0; R < 3; ++R)
-      Lengths[C] += M[4 * C + R] * M[4 * C + R];
-    Lengths[C] = std::sqrt(Lengths[C]);
-    for (std::size_t R = 0; R < 3; ++R)
-      By.Rotation[R][C] = M[4 * C + R] / Lengths[C];
+      By.Matrix[R][C] = M[4 * C + R];
     By.Translation[C] = M[12 + C];
   }
-  const auto &Q = By.Rotation;
-  bool Good = true;
-  for (std::size_t I = 0; I < 3; ++I) {
-    Good = Good && Lengths[I] > 0 && std::isfinite(Lengths[I]);
-    for (std::size_t J = 0; J < I; ++J)
-      Good = Good && std::abs(Q[0][I] * Q[0][J] + Q[1][I] * Q[1][J] +
-                              Q[2][I] * Q[2][J]) < 1e-4;
-  }
-  const double Determinant = Q[0][0] * (Q[1][1] * Q[2][2] - Q[1][2] * Q[2][1]) -
-                             Q[0][1] * (Q[1][0] * Q[2][2] - Q[1][2] * Q[2][0]) +
-                             Q[0][2] * (Q[1][0] * Q[2][1] - Q[1][1] * Q[2][0]);
-  if (!Good || !(Determinant > 0.99))
-    return Error{Where, Name + ": its nodes mirror, shear or flatten it, "
-                               "expected a translation, rotation and scale"};
-  const auto [Least, Most] =
-      std::minmax_element(Lengths.begin(), Lengths.end());
-  if (*Most - *Least < 1e-6 * *Most)
-    By.Scale = Lengths[0];
-  else
-    stretch(S, Lengths);
-  // Of decimals, the identity's should stay it.
-  for (std::size_t R = 0; R < 3; ++R)
-    for (std::size_t C = 0; C < 3; ++C)
-      if (std::abs(By.Rotation[R][C] - std::round(By.Rotation[R][C])) < 1e-12)
-        By.Rotation[R][C] = std::round(By.Rotation[R][C]);
-  transform(S, By);
+  deform(S, By);
   return Success{};
+}
+
+/// Whether \p M scales all lengths to 0, which hides a node.
+bool isHidden(const GltfMatrix &M) {
+  return std::all_of(M.begin(), M.begin() + 12,
+                     [](double V) { return V == 0; });
 }
 
 Expected<Success> checkRequired(const std::string &Where, const Json &J) {
@@ -362,7 +340,7 @@ bool isGltf(Bytes File) {
     return true;
   const std::size_t Start = Text.find_first_not_of(" \t\r\n");
   return Start != std::string_view::npos && Text[Start] == '{' &&
-         Text.find("\"asset\"") != std::string_view::npos;
+         Text.find("\"asset\"") != std::string_view::npos && !isSogJson(File);
 }
 
 Expected<SceneFile> parseGltfFiles(const std::string &Where, Bytes File,
@@ -380,9 +358,13 @@ Expected<SceneFile> parseGltfFiles(const std::string &Where, Bytes File,
   Result.Format = SceneFormat::Gltf;
   Result.Version = 2;
   std::set<std::size_t> SpzRead;
-  std::size_t Left = Data->bytes(), Others = 0;
+  std::size_t Left = Data->bytes(), Hidden = 0;
   bool IsFirst = true;
   for (const GltfInstance &Each : *Instances) {
+    if (isHidden(Each.Transform)) {
+      ++Hidden;
+      continue;
+    }
     const auto Mesh = Data->objectAt("meshes", Each.Mesh);
     if (!Mesh)
       return Mesh.error();
@@ -394,7 +376,7 @@ Expected<SceneFile> parseGltfFiles(const std::string &Where, Bytes File,
     for (std::size_t P = 0; P < Primitives->size(); ++P) {
       const Json &One = (*Primitives)[P];
       if (!hasGaussians(One)) {
-        ++Others;
+        ++Result.Meshes;
         continue;
       }
       const std::string Name =
@@ -402,6 +384,7 @@ Expected<SceneFile> parseGltfFiles(const std::string &Where, Bytes File,
       auto S = Primitive(Where, Name, *Data, One, Options).read(SpzRead, Left);
       if (!S)
         return S.error();
+      limitShDegree(*S, Result.ReducedFrom);
       if (auto Placed = place(Where, Name, *S, Each.Transform); !Placed)
         return Placed.error();
       if (IsFirst)
@@ -414,9 +397,9 @@ Expected<SceneFile> parseGltfFiles(const std::string &Where, Bytes File,
   if (IsFirst)
     return Error{Where,
                  fmt::format("no primitive with {}, expected one", Splatting)};
-  if (Others > 0)
+  if (Hidden > 0)
     Result.Skipped.push_back(
-        fmt::format("{} meshes without Gaussians", Others));
+        fmt::format("{} meshes that a scale of 0 hides", Hidden));
   return Result;
 }
 
@@ -433,15 +416,16 @@ Expected<SceneFile> parseGltf(const std::string &Where, Bytes File,
       Options);
 }
 
+GltfSource filesBeside(const std::string &Path) {
+  return [Folder = std::filesystem::path(Path).parent_path()](
+             const std::string &Name) {
+    return readRegularFile((Folder / Name).string());
+  };
+}
+
 Expected<SceneFile> readGltf(const std::string &Path, Bytes File,
                              const ReadOptions &Options) {
-  const auto Folder = std::filesystem::path(Path).parent_path();
-  return parseGltfFiles(
-      Path, File,
-      [&](const std::string &Name) {
-        return readRegularFile((Folder / Name).string());
-      },
-      Options);
+  return parseGltfFiles(Path, File, filesBeside(Path), Options);
 }
 
 } // namespace vorion::splat

@@ -19,10 +19,13 @@ using GltfSource =
 /// the extension, or of its drafts (_ROTATION, _SCALE, COLOR_0); or the
 /// primitive holds an `.spz`. Refused, by name: extensions that are required
 /// and not known, other kernels, colour spaces and projections, compressed or
-/// sparse accessors, and transforms that mirror or shear.
+/// sparse accessors.
 Expected<SceneFile> parseGltfFiles(const std::string &Where, Bytes File,
                                    const GltfSource &Read,
                                    const ReadOptions &Options);
+
+/// Reads from the folder of the glTF file \p Path.
+GltfSource filesBeside(const std::string &Path);
 
 /// The same for the file \p Path, whose content is \p File; its buffers may be
 /// files beside it.

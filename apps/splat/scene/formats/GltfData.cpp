@@ -245,6 +245,29 @@ Expected<GltfData> GltfData::open(const std::string &Where, Bytes File,
   return Data;
 }
 
+/// What the \p Uri of \p Owner has.
+Expected<std::vector<std::byte>>
+GltfData::content(const std::string &Uri, const std::string &Owner,
+                  const GltfSource &Read) const {
+  if (Uri.starts_with("data:")) {
+    const std::size_t Comma = Uri.find(";base64,");
+    auto Decoded = Comma == std::string::npos
+                       ? std::nullopt
+                       : decodeBase64(std::string_view(Uri).substr(Comma + 8));
+    if (!Decoded)
+      return wrong(fmt::format("{} has data that are not base64, expected "
+                               "data:...;base64,",
+                               Owner));
+    return std::move(*Decoded);
+  }
+  const std::string Name = decodePercents(Uri);
+  if (!staysInside(Name) || Name.find("://") != std::string::npos)
+    return wrong(fmt::format(
+        "refers to the file `{}`, expected a file inside the folder",
+        printable(Name)));
+  return Read(Name);
+}
+
 Expected<Success> GltfData::readBuffers(Bytes Binary, bool HasBinary,
                                         const GltfSource &Read) {
   const auto List = Document.find("buffers");
@@ -272,31 +295,15 @@ Expected<Success> GltfData::readBuffers(Bytes Binary, bool HasBinary,
       return wrong(fmt::format("buffer {} has a uri that is not a string, "
                                "expected a file name or data",
                                Number));
-    } else if (const auto &Text = Uri->get_ref<const std::string &>();
-               Text.starts_with("data:")) {
-      const std::size_t Comma = Text.find(";base64,");
-      auto Decoded =
-          Comma == std::string::npos
-              ? std::nullopt
-              : decodeBase64(std::string_view(Text).substr(Comma + 8));
-      if (!Decoded)
-        return wrong(fmt::format("buffer {} has data that are not base64, "
-                                 "expected data:...;base64,",
-                                 Number));
-      Owned.push_back(std::move(*Decoded));
-      Content = Owned.back();
     } else {
-      const std::string Name = decodePercents(Text);
-      if (!staysInside(Name) || Name.find("://") != std::string::npos)
-        return wrong(fmt::format(
-            "refers to the file `{}`, expected a file inside the folder",
-            printable(Name)));
+      const auto &Text = Uri->get_ref<const std::string &>();
       // Memory must follow what is there.
-      if (!Names.insert(Name).second)
+      if (!Text.starts_with("data:") &&
+          !Names.insert(decodePercents(Text)).second)
         return wrong(fmt::format(
             "refers to the file `{}` twice, expected one reference per file",
-            printable(Name)));
-      auto File = Read(Name);
+            printable(Text)));
+      auto File = content(Text, fmt::format("buffer {}", Number), Read);
       if (!File)
         return File.error();
       Owned.push_back(std::move(*File));
@@ -348,6 +355,30 @@ Expected<Bytes> GltfData::bufferView(std::size_t Index) const {
                              "that is",
                              Index));
   return Buffers[*Buffer].subspan(*Offset, *Length);
+}
+
+Expected<std::vector<std::byte>> GltfData::image(std::size_t Index,
+                                                 const GltfSource &Read) const {
+  const auto Image = objectAt("images", Index);
+  if (!Image)
+    return Image.error();
+  if (const auto Uri = (*Image)->find("uri"); Uri != (*Image)->end()) {
+    if (!Uri->is_string())
+      return wrong(fmt::format("image {} has a uri that is not a string, "
+                               "expected a file name or data",
+                               Index));
+    return content(Uri->get_ref<const std::string &>(),
+                   fmt::format("image {}", Index), Read);
+  }
+  const auto View = gltfIndex(**Image, "bufferView", std::nullopt);
+  if (!View)
+    return wrong(fmt::format("image {} has no uri and no bufferView, expected "
+                             "one of them",
+                             Index));
+  const auto File = bufferView(*View);
+  if (!File)
+    return File.error();
+  return std::vector(File->begin(), File->end());
 }
 
 Expected<GltfAccessor> GltfData::accessor(std::size_t Index) const {

@@ -47,6 +47,10 @@ public:
   Expected<const nlohmann::json *> objectAt(const char *Key,
                                             std::size_t Index) const;
   Expected<Bytes> bufferView(std::size_t Index) const;
+  /// The file of image \p Index: a bufferView, data of a URI, or what
+  /// \p Read has.
+  Expected<std::vector<std::byte>> image(std::size_t Index,
+                                         const GltfSource &Read) const;
   /// Total size of all buffers in bytes, an upper bound of elements of \c
   /// accessor.
   std::size_t bytes() const;
@@ -56,6 +60,9 @@ public:
 
 private:
   Error wrong(std::string What) const { return {Where, std::move(What)}; }
+  Expected<std::vector<std::byte>> content(const std::string &Uri,
+                                           const std::string &Owner,
+                                           const GltfSource &Read) const;
   Expected<Success> readBuffers(Bytes Binary, bool HasBinary,
                                 const GltfSource &Read);
   Expected<Success> walk(std::size_t Node, const GltfMatrix &Parent,

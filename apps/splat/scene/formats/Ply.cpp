@@ -1,7 +1,7 @@
 // Trained scenes in INRIA's PLY layout.
 //
 // A PLY, of text or binary, whose element vertex has the properties x, y, z,
-// f_dc_0..2, f_rest_0.. (0, 9, 24 or 45 of them: degree 0 to 3), opacity,
+// f_dc_0..2, f_rest_0.. (0, 9, 24, 45 or 72: degree 0 to 4), opacity,
 // scale_0..2 and rot_0..3 as floats or doubles, in any order; other properties
 // (nx, ny, nz) and other elements are skipped. Instead of f_dc and f_rest there
 // may be red, green and blue as bytes, as nerfstudio writes on request: the
@@ -12,8 +12,11 @@
 
 #include "io/PlyFile.h"
 #include "io/Unsupported.h"
+#include "scene/LocalFrame.h"
+#include "scene/UpDirection.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
+#include "scene/formats/Quantize.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
@@ -82,12 +85,9 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
   L.ShDegree = Rest % 3 == 0 ? shDegreeOf(Rest / 3) : -1;
   if (L.ShDegree < 0)
     return Error{Where,
-                 fmt::format("{} f_rest properties{}, expected 0, 9, 24 or 45 "
-                             "(degree 0 to 3){}",
-                             Rest, Rest == 72 ? " (degree 4)" : "",
-                             Rest == 72 ? "; export the scene with degree 3 or "
-                                          "less"
-                                        : "")};
+                 fmt::format("{} f_rest properties, expected 0, 9, 24, 45 or "
+                             "72 (degree 0 to 4)",
+                             Rest)};
   std::vector<std::string> ShNames;
   if (Rest == 0 && hasColourBytes(Vertex)) {
     auto Found =
@@ -168,6 +168,7 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
   SceneFile Result;
   Result.Format = SceneFormat::Ply;
   Result.DrawnAs = std::move(*DrawnAs);
+  Result.Up = upOfComments(Read->header().Comments);
   Result.Skipped = L->Skipped;
   for (const PlyElement &E : Read->header().Elements)
     if (&E != Vertex)
@@ -176,16 +177,17 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
   const struct {
     std::vector<float> &To;
     const std::vector<PlyReal> &From;
-  } Copied[] = {{S.Means, L->Means},
-                {S.LogScales, L->LogScales},
+  } Copied[] = {{S.LogScales, L->LogScales},
                 {S.Quats, L->Quats},
                 {S.OpacityLogits, L->Opacity},
                 {S.Sh, L->Sh}};
   for (std::size_t I = 0; I < Vertex->Count; ++I) {
     const Bytes Row = Read->row(*Vertex, I);
+    for (std::size_t A = 0; A < 3; ++A)
+      S.setMean(3 * I + A, loadReal(Row, L->Means[A]));
     for (const auto &[To, From] : Copied)
       for (std::size_t K = 0; K < From.size(); ++K)
-        To[I * From.size() + K] = loadReal(Row, From[K]);
+        To[I * From.size() + K] = static_cast<float>(loadReal(Row, From[K]));
     for (std::size_t C = 0; C < L->ColourBytes.size(); ++C)
       S.Sh[3 * I + C] = shOfColor(byteAt(Row, L->ColourBytes[C]) / 255.0);
   }
@@ -200,7 +202,11 @@ std::string formatPly(const Scene &S, const Drawing &D) {
   const auto Declare = [&](const std::string &Name) {
     Out += fmt::format("property float {}\n", Name);
   };
-  for (const char *Name : {"x", "y", "z", "nx", "ny", "nz"})
+  const bool InDoubles = needsDoubles(S);
+  for (const char *Name : {"x", "y", "z"})
+    Out +=
+        fmt::format("property {} {}\n", InDoubles ? "double" : "float", Name);
+  for (const char *Name : {"nx", "ny", "nz"})
     Declare(Name);
   for (int C = 0; C < 3; ++C)
     Declare(fmt::format("f_dc_{}", C));
@@ -218,7 +224,11 @@ std::string formatPly(const Scene &S, const Drawing &D) {
   };
   const std::array<float, 3> NoNormal{};
   for (std::size_t I = 0; I < S.size(); ++I) {
-    Put(&S.Means[3 * I], 3);
+    for (std::size_t K = 3 * I; K < 3 * I + 3; ++K)
+      if (InDoubles)
+        put(Out, S.mean(K));
+      else
+        put(Out, S.roundedMean(K));
     Put(NoNormal.data(), 3);
     const float *Sh = &S.Sh[3 * (Later + 1) * I];
     Put(Sh, 3);

@@ -15,7 +15,8 @@ namespace vorion::splat {
 std::vector<std::string> plyRestNames(int ShDegree);
 
 /// \p S in the layout and property order of INRIA's trainer (with zero
-/// normals).
+/// normals), in the caller's frame: x, y and z are doubles where fp32 has too
+/// few digits (\c needsDoubles()).
 /// The comments of \p D, if it is not the classic way, come before the
 /// elements.
 std::string formatPly(const Scene &S, const Drawing &D = {});

@@ -32,10 +32,9 @@ static constexpr std::size_t CodebookSize = 256;
 /// Once something is wrong, \c Problem says what, and nothing more is done.
 class SogData::Reader {
 public:
-  Reader(std::string Where, std::string MetaWhere, Json Meta,
-         const ReadOptions &Options)
+  Reader(std::string Where, std::string MetaWhere, Json Meta)
       : Where(std::move(Where)), MetaWhere(std::move(MetaWhere)),
-        NullIsNaN(Options.DropNonFinite), Root(std::move(Meta)) {}
+        Root(std::move(Meta)) {}
 
   /// Reads the description and the pictures that it names.
   Expected<Success> describe(const FileSource &Source) {
@@ -237,6 +236,7 @@ private:
     return V == G->end() ? None : *V;
   }
 
+  /// A null is a NaN: JSON has no other notation for it.
   std::vector<double> numbers(const char *Group, const char *Key,
                               std::size_t Size) {
     const Json &V = value(Group, Key);
@@ -245,13 +245,24 @@ private:
       for (const Json &N : V)
         if (N.is_number())
           Result.push_back(N.get<double>());
-        else if (N.is_null() && NullIsNaN) // what JSON has for it
+        else if (N.is_null())
           Result.push_back(std::numeric_limits<double>::quiet_NaN());
     }
     if (Result.size() != Size)
       fail(metaError(
           fmt::format("{}.{}: expected {} finite numbers", Group, Key, Size)));
     return Result;
+  }
+
+  /// A codebook of version 2, in ascending order. Older writers stored the
+  /// first entry as null where a scene has infinities, as flat Gaussians do:
+  /// PlayCanvas' engine continues the mean step of the others, and so does
+  /// this. Gaussians with another null have a NaN.
+  Book codebook(const char *Group) {
+    Book B = numbers(Group, "codebook", CodebookSize);
+    if (!Problem && std::isnan(B.front()))
+      B.front() = B[1] - (B.back() - B[1]) / (CodebookSize - 1);
+    return B;
   }
 
   /// The number of Gaussians as the description has it.
@@ -267,8 +278,7 @@ private:
   /// from a least to a greatest value.
   std::vector<Book> books(const char *Group, std::size_t Channels) {
     if (!IsFirst)
-      return std::vector<Book>(Channels,
-                               numbers(Group, "codebook", CodebookSize));
+      return std::vector<Book>(Channels, codebook(Group));
     const auto Mins = numbers(Group, "mins", Channels),
                Maxs = numbers(Group, "maxs", Channels);
     std::vector<Book> Result;
@@ -382,8 +392,8 @@ private:
     }
     P.Values = evenSteps(Low.get<double>(), High.get<double>());
     constexpr std::size_t MostEntries = std::size_t(1) << 16; // labels' 16 bits
-    P.Centroids =
-        &picture("shN", 0, MostEntries * (shCoefficients(MaxShDegree) - 1));
+    P.Centroids = &picture(
+        "shN", 0, MostEntries * (shCoefficients(MaxStoredShDegree) - 1));
     if (Problem)
       return;
     P.Degree = P.Centroids->Width % PaletteRow == 0
@@ -393,15 +403,16 @@ private:
     if (P.Degree < 1)
       fail(
           {file("shN", 0), fmt::format("{} pixels wide, expected {} pixels for "
-                                       "each coefficient of degree 1, 2 or 3",
+                                       "each coefficient of degree 1 to 4",
                                        P.Centroids->Width, PaletteRow)});
   }
 
   void secondPalette(Palette &P) {
     const Json &Bands = value("shN", "bands"), &Entries = value("shN", "count");
     if (!Bands.is_number_unsigned() || Bands.get<uint64_t>() < 1 ||
-        Bands.get<uint64_t>() > static_cast<unsigned>(MaxShDegree)) {
-      fail(metaError("shN.bands: expected 1, 2 or 3"));
+        Bands.get<uint64_t>() > static_cast<unsigned>(MaxStoredShDegree)) {
+      fail(metaError(
+          fmt::format("shN.bands: expected 1 to {}", MaxStoredShDegree)));
       return;
     }
     P.Degree = Bands.get<int>();
@@ -410,7 +421,7 @@ private:
       return;
     }
     P.Entries = Entries.get<uint64_t>();
-    P.Values = numbers("shN", "codebook", CodebookSize);
+    P.Values = codebook("shN");
     const std::size_t Later = shCoefficients(P.Degree) - 1;
     const std::size_t Width = PaletteRow * Later;
     P.Centroids = &picture("shN", 0, std::min(P.Entries, MostPixels) * Later);
@@ -427,7 +438,6 @@ private:
 
   std::string Where, MetaWhere;
   const FileSource *Read = nullptr; ///< while the description is read
-  bool NullIsNaN;                   ///< in a codebook; an error else
   Json Root;
   bool IsFirst = false; ///< of version 1
   const Plane *LowMeans = nullptr, *HighMeans = nullptr, *QuatPlane = nullptr,
@@ -455,13 +465,11 @@ SogData::~SogData() = default;
 
 Expected<SogData> SogData::open(const std::string &Where,
                                 const std::string &MetaWhere, Bytes Meta,
-                                const FileSource &Read,
-                                const ReadOptions &Options) {
+                                const FileSource &Read) {
   auto Root = parseJson<Json>(asText(Meta), MetaWhere, "SOG's description");
   if (!Root)
     return Root.error();
-  auto R =
-      std::make_unique<Reader>(Where, MetaWhere, std::move(*Root), Options);
+  auto R = std::make_unique<Reader>(Where, MetaWhere, std::move(*Root));
   if (const auto Described = R->describe(Read); !Described)
     return Described.error();
   return SogData(std::move(R));
@@ -476,9 +484,8 @@ Expected<Success> SogData::unpack(Scene &To, std::size_t At) {
 
 Expected<SceneFile> parseSogData(const std::string &Where,
                                  const std::string &MetaWhere, Bytes Meta,
-                                 const FileSource &Read,
-                                 const ReadOptions &Options) {
-  auto Data = SogData::open(Where, MetaWhere, Meta, Read, Options);
+                                 const FileSource &Read) {
+  auto Data = SogData::open(Where, MetaWhere, Meta, Read);
   if (!Data)
     return Data.error();
   SceneFile Result = Data->head();

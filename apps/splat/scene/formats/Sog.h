@@ -30,8 +30,7 @@ public:
   /// models other than default and antialiased.
   static Expected<SogData> open(const std::string &Where,
                                 const std::string &MetaWhere, Bytes Meta,
-                                const FileSource &Read,
-                                const ReadOptions &Options);
+                                const FileSource &Read);
   SogData(SogData &&) noexcept;
   ~SogData();
 
@@ -52,7 +51,6 @@ private:
 /// The complete data set of \c SogData.
 Expected<SceneFile> parseSogData(const std::string &Where,
                                  const std::string &MetaWhere, Bytes Meta,
-                                 const FileSource &Read,
-                                 const ReadOptions &Options = {});
+                                 const FileSource &Read);
 
 } // namespace vorion::splat

@@ -13,7 +13,7 @@ namespace vorion::splat {
 bool isSog(Bytes File) { return isZip(File); }
 
 Expected<SceneFile> parseSog(const std::string &Where, Bytes File,
-                             const ReadOptions &Options) {
+                             const ReadOptions & /*Options*/) {
   auto Z = ZipArchive::open(Where, "a SOG archive", File);
   if (!Z)
     return Z.error();
@@ -40,7 +40,7 @@ Expected<SceneFile> parseSog(const std::string &Where, Bytes File,
     return Z->read(*Entry,
                    std::min(Most, Again * Z->packedSize(*Entry) + Small));
   };
-  return parseSogData(Where, Where + ": meta.json", *Meta, Picture, Options);
+  return parseSogData(Where, Where + ": meta.json", *Meta, Picture);
 }
 
 } // namespace vorion::splat

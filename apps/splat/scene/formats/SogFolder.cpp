@@ -55,20 +55,17 @@ FileSource withoutRepeats(const std::string &Where, const FileSource &Read) {
 
 /// The data set whose description is \p Meta, a path from where \p Read starts.
 Expected<SogData> openDataSet(const std::string &Where, const std::string &Meta,
-                              const FileSource &Read,
-                              const ReadOptions &Options) {
+                              const FileSource &Read) {
   const auto Content = Read(Meta, JsonLimits().Bytes);
   if (!Content)
     return Content.error();
   const fs::path Folder = fs::path(Meta).parent_path();
   const std::string Inside =
       Folder.empty() ? Where : Where + "/" + printable(Folder.string());
-  return SogData::open(
-      Inside, Inside + ": " + MetaName, *Content,
-      [&](const std::string &Name, std::size_t Most) {
-        return Read((Folder / Name).string(), Most);
-      },
-      Options);
+  return SogData::open(Inside, Inside + ": " + MetaName, *Content,
+                       [&](const std::string &Name, std::size_t Most) {
+                         return Read((Folder / Name).string(), Most);
+                       });
 }
 
 /// Gaussians \p Offset to \p Offset + \p Count of a data set.
@@ -200,8 +197,7 @@ Expected<SceneFile> readChunks(const std::string &Path,
   Joiner J(Options);
   const FileSource Files = filesOf(Path), Read = withoutRepeats(Path, Files);
   for (const std::string &Name : Names) {
-    auto Data =
-        openDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read, Options);
+    auto Data = openDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read);
     if (!Data)
       return Data.error();
     if (auto Added = J.add(fmt::format("{}/{}", Path, Name), std::move(*Data));
@@ -319,7 +315,7 @@ Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
   Joiner J(Options);
   for (auto &[File, Runs] : Tree.Runs) {
     const auto Name = Index["filenames"][File].get<std::string>();
-    auto Data = openDataSet(Where, Name, Read, Options);
+    auto Data = openDataSet(Where, Name, Read);
     if (!Data)
       return Data.error();
     if (auto Added = J.add(Where + ": " + printable(Name), std::move(*Data),
@@ -329,7 +325,7 @@ Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
   }
   if (const auto E = Index.find("environment");
       E != Index.end() && E->is_string()) {
-    auto Data = openDataSet(Where, E->get<std::string>(), Read, Options);
+    auto Data = openDataSet(Where, E->get<std::string>(), Read);
     if (!Data)
       return Data.error();
     if (auto Added = J.add(Where + ": environment", std::move(*Data)); !Added)
@@ -352,6 +348,26 @@ Expected<SceneFile> readSogFolder(const std::string &Path,
   return readChunks(Path, Options);
 }
 
+/// The keys of an index, and of a description.
+static constexpr const char *IndexKeys[] = {"tree", "lodLevels"};
+static constexpr const char *MeansKey = "means";
+
+bool isSogJson(Bytes File) {
+  const std::string_view Text = asText(File);
+  const auto IsNamed = [&](const char *Key) {
+    return Text.find(fmt::format("\"{}\"", Key)) != std::string_view::npos;
+  };
+  // Most files of glTF are not parsed for this.
+  if (!IsNamed(MeansKey) && std::ranges::none_of(IndexKeys, IsNamed))
+    return false;
+  const auto Root = parseJson<Json>(Text, "", "a description of a scene");
+  if (!Root || !Root->is_object())
+    return false;
+  return Root->contains(MeansKey) ||
+         std::ranges::any_of(
+             IndexKeys, [&](const char *Key) { return Root->contains(Key); });
+}
+
 Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
                                 const ReadOptions &Options) {
   fs::path Folder = fs::path(Path).parent_path();
@@ -361,9 +377,10 @@ Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
       parseJson<Json>(asText(File), Path, "SOG's description or an index");
   if (!Root)
     return Root.error();
-  if (Root->contains("tree") || Root->contains("lodLevels"))
+  if (std::ranges::any_of(IndexKeys,
+                          [&](const char *Key) { return Root->contains(Key); }))
     return parseStreamedSog(Folder.string(), File, filesOf(Folder), Options);
-  return parseSogData(Folder.string(), Path, File, filesOf(Folder), Options);
+  return parseSogData(Folder.string(), Path, File, filesOf(Folder));
 }
 
 } // namespace vorion::splat

@@ -12,6 +12,10 @@ namespace vorion::splat {
 Expected<SceneFile> readSogFolder(const std::string &Path,
                                   const ReadOptions &Options);
 
+/// Whether \p File is SOG's `meta.json` or `lod-meta.json`. Those of
+/// splat-transform have the key `asset`, as glTF has.
+bool isSogJson(Bytes File);
+
 /// Reads the folder around \p Path, a `meta.json` or `lod-meta.json` whose
 /// content is \p File.
 Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,

@@ -14,6 +14,11 @@ namespace {
 
 using Json = nlohmann::json;
 
+bool isSogJson(const Json &Value) {
+  const std::string Text = Value.dump();
+  return vorion::splat::isSogJson(std::as_bytes(std::span(Text)));
+}
+
 /// Writes \p Files below \p Name and gives the path.
 std::string written(const TestFolder &Root, const std::string &Name,
                     const Folder &Files) {
@@ -46,6 +51,24 @@ TEST(SogFolder, AFolderAndItsDescriptionAreTheSameScene) {
   EXPECT_EQ(Read.Format, SceneFormat::Sog);
   expectNear(Read.Gaussians, S);
   EXPECT_EQ(read(Path + "/meta.json").Gaussians.Means, Read.Gaussians.Means);
+}
+
+TEST(SogFolder, ADescriptionMayHaveTheKeyAssetAsGltfHas) {
+  const TestFolder Root;
+  const Scene S = randomScene(20, 1, 5);
+  Folder Files = sogOf(S);
+  Json Meta = Json::parse(Files["meta.json"]);
+  Meta["asset"] = {{"generator", "splat-transform"}};
+  Files["meta.json"] = Meta.dump();
+  const std::string Path = written(Root, "s", Files);
+  for (const std::string &Name : {Path, Path + "/meta.json"})
+    EXPECT_EQ(read(Name).Format, SceneFormat::Sog) << Name;
+  const Json Index{{"asset", {{"version", "1.0"}}}, {"lodLevels", 1}};
+  EXPECT_TRUE(isSogJson(Index));
+  // A glTF in which the words occur stays one.
+  const Json Mesh{{"asset", {{"version", "2.0"}}},
+                  {"extras", {{"means", 1}, {"tree", 2}}}};
+  EXPECT_FALSE(isSogJson(Mesh));
 }
 
 TEST(SogFolder, ChunksAreJoinedInTheOrderOfTheirNames) {

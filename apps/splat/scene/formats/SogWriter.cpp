@@ -68,7 +68,7 @@ private:
       std::vector<double> Values;
       Values.reserve(S.size());
       for (std::size_t I = 0; I < S.size(); ++I)
-        Values.push_back(logOf(S.Means[3 * I + A]));
+        Values.push_back(logOf(S.roundedMean(3 * I + A)));
       Bounds[A] = rangeOf(Values);
       Mins.push_back(Bounds[A].Low);
       Maxs.push_back(Bounds[A].High);
@@ -76,7 +76,8 @@ private:
     std::string Low, High;
     for (std::size_t I = 0; I < S.size(); ++I) {
       for (std::size_t A = 0; A < 3; ++A) {
-        const uint32_t V = stepOf(logOf(S.Means[3 * I + A]), Bounds[A], 16);
+        const uint32_t V =
+            stepOf(logOf(S.roundedMean(3 * I + A)), Bounds[A], 16);
         putByte(Low, V & 0xFF);
         putByte(High, V >> 8);
       }

@@ -10,6 +10,8 @@ using namespace vorion::splat::testing;
 
 namespace {
 
+using Json = nlohmann::json;
+
 SceneFile parsed(const std::string &Content, int Version = 2) {
   SceneFile Read = parsedAs(SceneFormat::Sog, Content);
   EXPECT_EQ(Read.Version, Version);
@@ -65,6 +67,23 @@ TEST(Sog, TakesTheFilesThatItsDescriptionNames) {
   EXPECT_TRUE(Read.DrawnAs.Antialiased);
   EXPECT_EQ(Read.DrawnAs.Source, "antialias true");
   EXPECT_LE(differencesOf(Read.Gaussians, S).Rotation, 0.01);
+}
+
+TEST(Sog, ANullAtTheStartOfACodebookIsOneStepBelowTheNext) {
+  const Scene S = randomScene(60, 1, 4);
+  Folder Files = sogOf(S);
+  const Scene Whole = parsed(zipOf(Files)).Gaussians;
+  Json Meta = Json::parse(Files["meta.json"]);
+  double MeanStep = 0;
+  for (const char *Group : {"scales", "sh0", "shN"}) {
+    Json &Book = Meta[Group]["codebook"];
+    MeanStep = (Book[255].get<double>() - Book[1].get<double>()) / 254;
+    Book[0] = nullptr;
+  }
+  Files["meta.json"] = Meta.dump();
+  const Scene Read = parsed(zipOf(Files)).Gaussians;
+  EXPECT_NE(Read.LogScales, Whole.LogScales);
+  EXPECT_LE(differencesOf(Read, Whole).LogScale, 2 * std::abs(MeanStep) + 0.1);
 }
 
 TEST(Sog, ALargePaletteContinuesInTheNextRow) {

@@ -8,7 +8,7 @@ std::string splatOf(const Scene &S) {
   const std::size_t ShEach = 3 * S.coefficients();
   for (std::size_t I = 0; I < S.size(); ++I) {
     for (std::size_t A = 0; A < 3; ++A)
-      put(Out, S.Means[3 * I + A]);
+      put(Out, S.roundedMean(3 * I + A));
     for (std::size_t A = 0; A < 3; ++A)
       put(Out, std::exp(S.LogScales[3 * I + A]));
     for (std::size_t C = 0; C < 3; ++C)

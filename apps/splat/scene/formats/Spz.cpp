@@ -76,10 +76,9 @@ Expected<Header> readHeader(const std::string &Where, Bytes File) {
   H.FractionalBits = static_cast<int>(byteAt(File, 13));
   const unsigned Flags = byteAt(File, 14);
   H.Antialiased = (Flags & AntialiasedFlag) != 0;
-  if (H.ShDegree > MaxShDegree)
-    return Error{Where, fmt::format("SH degree {}, expected 0 to 3; export the "
-                                    "scene with degree 3 or less",
-                                    H.ShDegree)};
+  if (H.ShDegree > MaxStoredShDegree)
+    return Error{Where, fmt::format("SH degree {}, expected 0 to {}",
+                                    H.ShDegree, MaxStoredShDegree)};
   if (H.FractionalBits > 24)
     return Error{Where, fmt::format("{} fractional bits of 24-bit positions, "
                                     "expected 0 to 24",

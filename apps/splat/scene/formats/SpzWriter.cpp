@@ -10,17 +10,17 @@ namespace {
 
 constexpr double LargestFixed = (1 << 23) - 1; // of 24 bits with a sign
 
-double largestOf(const std::vector<float> &Values) {
+double largestMean(const Scene &S) {
   double Largest = 0;
-  for (const float V : Values)
-    Largest = std::max(Largest, std::abs(double(V)));
+  for (std::size_t I = 0; I < S.Means.size(); ++I)
+    Largest = std::max(Largest, std::abs(double(S.roundedMean(I))));
   return Largest;
 }
 
 /// As many as the format's own programs use, or fewer for a larger scene.
 int fractionalBits(const Scene &S) {
   int Bits = 12;
-  const double Largest = largestOf(S.Means);
+  const double Largest = largestMean(S);
   while (Bits > 0 && std::round(std::ldexp(Largest, Bits)) > LargestFixed)
     --Bits;
   return Bits;
@@ -48,7 +48,7 @@ int harmonicByte(float Value, std::size_t Coefficient) {
 } // namespace
 
 bool fitsSpz(const Scene &S) {
-  return std::round(largestOf(S.Means)) <= LargestFixed;
+  return std::round(largestMean(S)) <= LargestFixed;
 }
 
 std::string spzBodyOf(const Scene &S, int Version, const Drawing &D) {
@@ -59,8 +59,9 @@ std::string spzBodyOf(const Scene &S, int Version, const Drawing &D) {
   const int Bits = fractionalBits(S);
   for (const int Byte : {S.ShDegree, Bits, D.Antialiased ? 1 : 0, 0})
     putByte(Out, Byte);
-  for (const float V : S.Means) {
-    const auto Fixed = static_cast<int32_t>(std::lround(std::ldexp(V, Bits)));
+  for (std::size_t I = 0; I < S.Means.size(); ++I) {
+    const auto Fixed =
+        static_cast<int32_t>(std::lround(std::ldexp(S.roundedMean(I), Bits)));
     for (const int Shift : {0, 8, 16})
       Out += static_cast<char>(Fixed >> Shift & 0xFF);
   }

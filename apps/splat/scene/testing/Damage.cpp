@@ -170,7 +170,7 @@ void addSpzDamage(std::vector<DamagedFile> &Out) {
       {"count.v4.spz", patched(Four, 8, uint32_t(-1)), "array 0 has 45 bytes"});
   Add("huge-count.spz", patched(Body, 8, uint32_t(-1)),
       "expected 4294967295 Gaussians");
-  Add("degree.spz", patched(Body, 12, uint8_t(4)), "SH degree 4");
+  Add("degree.spz", patched(Body, 12, uint8_t(5)), "SH degree 5");
   Add("fraction.spz", patched(Body, 13, uint8_t(25)), "25 fractional bits");
   Add("extensions.spz", patched(Body, 14, uint8_t(2)), "flags 0x02");
   Add("reserved.spz", patched(Body, 15, uint8_t(1)), "reserved byte 0x01");
@@ -218,8 +218,8 @@ std::vector<DamagedFolder> sogDamage() {
        [](Json &M) { M.erase("means"); });
   Meta("mins-short", "means.mins: expected 3 finite numbers",
        [](Json &M) { M["means"]["mins"].erase(0); });
-  Meta("codebook-null", "scales.codebook: expected 256 finite numbers",
-       [](Json &M) { M["scales"]["codebook"][0] = nullptr; });
+  Meta("codebook-null", "has a NaN or an infinity in its scales",
+       [](Json &M) { M["scales"]["codebook"] = Json::array_t(256); });
   Meta("codebook-short", "sh0.codebook: expected 256 finite numbers",
        [](Json &M) { M["sh0"]["codebook"].erase(0); });
   Meta("codebook-huge", "has a NaN or an infinity", [](Json &M) {
@@ -228,8 +228,8 @@ std::vector<DamagedFolder> sogDamage() {
   });
   Meta("means-huge", "has a NaN or an infinity",
        [](Json &M) { M["means"]["maxs"] = {1e9, 1e9, 1e9}; });
-  Meta("bands", "shN.bands: expected 1, 2 or 3",
-       [](Json &M) { M["shN"]["bands"] = 4; });
+  Meta("bands", "shN.bands: expected 1 to 4",
+       [](Json &M) { M["shN"]["bands"] = 5; });
   Meta("other-bands", "palette entries of degree 2",
        [](Json &M) { M["shN"]["bands"] = 2; });
   Meta("palette-small", "has palette entry 2, expected less than 2",

@@ -1,22 +1,17 @@
-// What pages of studies share: points on a chart and in a table, of which one is selected. A page has `state.selected`, the name
-// of a point, and `draw()`.
-
-function select(name) {
-  state.selected = name;
-  draw();
-}
+// What pages of studies share: points on a chart and in a table, of which one is selected (see select() in common.js).
 
 // A scatter chart on the canvas `id`. `points`: { x, y, name }, of which a click selects one; `dots`: how they are drawn, with
-// `colours`, one a point; `label`: a point's tooltip, if it has one; `more`: other datasets; `others`: other options.
-function drawPoints(id, points, { colours, dots = {}, scales, label, more = [], plugins = [], others = {} }) {
+// `colours`, one a point; `isNamed`: which have their names beside them; `label`: a point's tooltip, if it has one; `more`: other
+// datasets; `others`: other options.
+function drawPoints(id, points, { colours, dots = {}, scales, isNamed, label, more = [], plugins = [], others = {} }) {
   const own = {
-    data: points, pointBackgroundColor: 'transparent', pointBorderWidth: 2, pointBorderColor: colours, pointHoverBorderColor: colours,
+    label: 'points', data: points, pointBackgroundColor: 'transparent', pointBorderWidth: 2, pointBorderColor: colours, pointHoverBorderColor: colours,
     pointHoverBackgroundColor: 'transparent', ...dots,
   };
-  return drawChart(id, {
+  drawChart(id, {
     type: 'scatter',
     data: { datasets: [own, ...more] },
-    plugins,
+    plugins: [...plugins, pointNames(p => (isNamed(p) ? p.name : ''))],
     options: {
       scales,
       plugins: { legend: { display: false }, tooltip: label ? { callbacks: { label: ({ raw }) => label(raw) } } : { enabled: false } },
@@ -30,14 +25,13 @@ function drawPoints(id, points, { colours, dots = {}, scales, label, more = [], 
 }
 
 // A line through points, which no pointer finds.
-const lineOf = (points, which, more = {}) => ({ data: points, showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: colour(which), borderWidth: 1.5, ...more });
+const lineOf = (label, points, which, more = {}) => ({ label, data: points, showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: colour(which), borderWidth: 1.5, ...more });
 
 // The table #table of entries, sorted by state.sort, with the selected one and those on the front marked.
 function drawEntries(columns, entries, nameOf, isOnFront = () => false) {
   drawColumns(byId('table'), columns, entries, state.sort, sort => { state.sort = sort; draw(); }, (row, e) => {
     row.classList.toggle('onfront', isOnFront(e));
-    row.classList.toggle('selected', nameOf(e) === state.selected);
-    row.addEventListener('click', () => select(nameOf(e)));
+    selects(row, nameOf(e), 'table');
   });
 }
 
@@ -48,5 +42,9 @@ function trySelecting(index, shownIn) {
   options.onClick({}, [{ datasetIndex: 0, index }]);
   if (!byId(shownIn).textContent.startsWith(points[index].name)) throw new Error('a click selects nothing');
   if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
+  const row = [...byId('table').tBodies[0].rows].at(-1);
+  row.click();
+  if (byId('table').querySelector('tr.selected')?.nextSibling !== byId('panel').closest('tr')) throw new Error('the panel is not below its row');
+  options.onClick({}, [{ datasetIndex: 0, index }]);
   return points;
 }

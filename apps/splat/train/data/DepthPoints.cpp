@@ -7,7 +7,7 @@
 namespace vorion::splat {
 
 std::vector<DepthPoint> depthPoints(const Camera &Pose,
-                                    const CapturePoints &Points,
+                                    const std::vector<float> &Points,
                                     const std::vector<uint32_t> &Sees,
                                     const std::vector<uint8_t> &Counts) {
   const auto R = Pose.worldToCameraRotation();
@@ -17,7 +17,7 @@ std::vector<DepthPoint> depthPoints(const Camera &Pose,
     std::array<double, 3> P = T;
     for (std::size_t Row = 0; Row < 3; ++Row)
       for (std::size_t K = 0; K < 3; ++K)
-        P[Row] += R[3 * Row + K] * Points.Positions[3 * std::size_t{I} + K];
+        P[Row] += R[3 * Row + K] * Points[3 * std::size_t{I} + K];
     const double X = Pose.Fx * P[0] / P[2] + Pose.Cx;
     const double Y = Pose.Fy * P[1] / P[2] + Pose.Cy;
     const auto Disparity = static_cast<float>(1 / P[2]);

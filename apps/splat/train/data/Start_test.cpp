@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 
 using namespace vorion::splat;
@@ -63,7 +64,7 @@ TEST(Start, PointsBecomeRoundGaussians) {
   const Scene S = startingScene(C, {0, 2, 1000});
   ASSERT_EQ(S.size(), 4U);
   EXPECT_EQ(S.ShDegree, 2);
-  EXPECT_EQ(S.Means, C.Points.Positions);
+  EXPECT_EQ(S.Means, C.Points.local());
   EXPECT_NEAR(S.LogScales[1], 0, 1e-7); // three neighbours at 1
   EXPECT_NEAR(S.LogScales[4], std::log((1 + 2 * std::sqrt(2.0)) / 3), 1e-6);
   EXPECT_EQ(S.Quats[0], 1);
@@ -98,6 +99,22 @@ TEST(Start, RandomPointsFillTheirCubeTheSameEachTime) {
   EXPECT_NE(A.Means, startingScene(C, {8, 0, 3000}).Means);
 }
 
+TEST(Start, TheLeastSizeFollowsTheUnitOfTheCapture) {
+  Capture Large, Small;
+  CaptureView V;
+  V.Pose.Position = {4, 0, 0};
+  Large.Views.push_back(V);
+  V.Pose.Position = {1.0 / 64, 0, 0};
+  Small.Views.push_back(V);
+  for (Capture *C : {&Large, &Small}) {
+    C->Points.Positions.assign(15, 0);
+    C->Points.Colours.assign(15, 100);
+  }
+  EXPECT_NEAR(startingScene(Small, {0, 0, 9}).LogScales[0],
+              startingScene(Large, {0, 0, 9}).LogScales[0] - std::log(64),
+              1e-5);
+}
+
 TEST(Start, ViewsSeeTheMiddleOfRandomPointsOrNot) {
   Capture C;
   CaptureView V;
@@ -111,7 +128,45 @@ TEST(Start, ViewsSeeTheMiddleOfRandomPointsOrNot) {
   }
   V.Pose.Position = {0, 0, 2}; // looks away
   C.Views.push_back(V);
-  EXPECT_EQ(viewsOfRandomPoints(C), 2U);
+  EXPECT_EQ(randomCube(C).SeenBy, 2U);
+  EXPECT_EQ(randomCube(C).centreText(), "the origin");
+}
+
+/// \p Count pictures of 100x100 px on a circle of radius \p R about \p Centre,
+/// which they look at.
+Capture ringOf(const WorldPoint &Centre, double R, int Count = 8) {
+  Capture C;
+  for (int I = 0; I < Count; ++I) {
+    const double Angle = 2 * std::numbers::pi * I / Count, S = std::sin(Angle),
+                 K = std::cos(Angle);
+    CaptureView V;
+    V.Pose.Width = V.Pose.Height = 100;
+    V.Pose.Fx = V.Pose.Fy = V.Pose.Cx = V.Pose.Cy = 50;
+    V.Pose.Position = {Centre[0] - R * S, Centre[1], Centre[2] - R * K};
+    V.Pose.Rotation = {{{K, 0, S}, {0, 1, 0}, {-S, 0, K}}};
+    C.Views.push_back(V);
+  }
+  return C;
+}
+
+TEST(Start, RandomPointsFollowTheUnitAndThePlaceOfTheCapture) {
+  for (const double Away : {0.0, 250.0, 1e6})
+    for (const double R : {0.004, 4.0, 4000.0}) {
+      const WorldPoint Centre{Away * R, -Away * R, Away * R / 3};
+      Capture C = ringOf(Centre, R);
+      const RandomCube Cube = randomCube(C);
+      EXPECT_EQ(Cube.SeenBy, 8U);
+      EXPECT_NEAR(Cube.Reach / R, RandomReach / 4, 0.03 * RandomReach) << R;
+      for (std::size_t K = 0; K < 3; ++K)
+        EXPECT_NEAR(Cube.Centre[K], Centre[K], 1e-2 * R) << R;
+      C.Points.Origin = Cube.Centre;
+      const Scene S = startingScene(C, {7, 0, 300});
+      for (std::size_t I = 0; I < S.Means.size(); ++I)
+        EXPECT_LT(std::abs(S.mean(I) - Cube.Centre[I % 3]), 1.001 * Cube.Reach);
+    }
+  // Of 2.83 to 5.66 units, as synthetic captures are, nothing changes.
+  EXPECT_EQ(randomCube(ringOf({}, 3)).Reach, RandomReach);
+  EXPECT_EQ(randomCube(ringOf({}, 5.5)).Reach, RandomReach);
 }
 
 TEST(Start, FewerThanThePointsAreSpreadOverThem) {

@@ -39,15 +39,17 @@ Expected<std::vector<uint8_t>> countsOf(const CaptureView &V, const Plane &P,
   return Counts;
 }
 
-Expected<TrainView> load(const CaptureView &V, const CapturePoints &Points,
-                         const LoadOptions &O) {
-  auto Full = readPhoto(V.Picture);
-  if (!Full)
-    return Full.error();
-  auto Counts = countsOf(V, *Full, O.Masks);
+/// \p Points: of the capture, from \p Origin.
+Expected<TrainView> load(const CaptureView &V, const std::vector<float> &Points,
+                         const WorldPoint &Origin, const LoadOptions &O) {
+  auto Stored = readPhoto(V.Picture);
+  if (!Stored)
+    return Stored.error();
+  Plane Full = turned(std::move(*Stored), V.Orientation);
+  auto Counts = countsOf(V, Full, O.Masks);
   if (!Counts)
     return Counts.error();
-  MaskedPlane Taken{std::move(*Full), std::move(*Counts)};
+  MaskedPlane Taken{std::move(Full), std::move(*Counts)};
   Camera Pose = V.Pose;
   if (O.Pictures == LensOf::Photograph)
     Pose.Optics = V.Optics;
@@ -76,7 +78,8 @@ Expected<TrainView> load(const CaptureView &V, const CapturePoints &Points,
       T.Alpha.clear();
   }
   if (O.KeepDepths)
-    T.Depths = depthPoints(T.Pose, Points, V.Sees, T.Counts);
+    T.Depths =
+        depthPoints(relativeTo(T.Pose, Origin), Points, V.Sees, T.Counts);
   return T;
 }
 
@@ -123,8 +126,10 @@ std::size_t TrainingSet::depths() const {
 
 Expected<TrainingSet> loadTrainingSet(const Capture &C, const LoadOptions &O) {
   TrainingSet Set;
+  const std::vector<float> Points =
+      O.KeepDepths ? C.Points.local() : std::vector<float>();
   for (const CaptureView &V : C.Views) {
-    auto Loaded = load(V, C.Points, O);
+    auto Loaded = load(V, Points, C.Points.Origin, O);
     if (!Loaded)
       return Loaded.error();
     (V.HeldOut ? Set.HeldOut : Set.Training).push_back(std::move(*Loaded));

@@ -31,12 +31,12 @@ TEST(DepthPoints, AreThoseThatAPictureShows) {
   const std::vector<uint32_t> Sees{0, 1, 2, 3, 4, 5, 6, 7};
   const std::vector<DepthPoint> All{
       {4, 0.25F}, {28, 0.125F}, {28, 0.5F}, {29, 0.25F}};
-  EXPECT_EQ(depthPoints(C, P, Sees, {}), All);
+  EXPECT_EQ(depthPoints(C, P.local(), Sees, {}), All);
   std::vector<uint8_t> Counts(48, 1);
   Counts[28] = 0;
-  EXPECT_EQ(depthPoints(C, P, Sees, Counts),
+  EXPECT_EQ(depthPoints(C, P.local(), Sees, Counts),
             (std::vector<DepthPoint>{{4, 0.25F}, {29, 0.25F}}));
-  EXPECT_TRUE(depthPoints(C, P, {}, {}).empty());
+  EXPECT_TRUE(depthPoints(C, P.local(), {}, {}).empty());
 }
 
 class DepthLossOnDevice

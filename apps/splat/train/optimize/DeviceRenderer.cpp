@@ -15,6 +15,7 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
   O.SimtTile = By.SimtTile;
   O.SimtGroup = By.SimtGroup;
   O.Antialiased = How.Antialiased;
+  O.Near = How.Near;
   O.Optics = How.Optics;
   O.Rolling = How.Rolling;
   O.Through = How.Through;
@@ -53,7 +54,7 @@ cl::Buffer DeviceRenderer::forward(const DeviceScene &S, const Camera &C,
                                    int ShDegree) {
   if (BuiltDegree != ShDegree)
     build(ShDegree);
-  Drawing.draw({S.Parameters.Geometry, S.Parameters.Sh, S.Count, {}}, C);
+  Drawing.draw({S.Parameters.Geometry, S.Parameters.Sh, S.Count, {}, {}}, C);
   Launch.beginStage(Stage::Resolve);
   Picture = resolve(Launch, Drawing.frame(), Behind);
   return Picture;

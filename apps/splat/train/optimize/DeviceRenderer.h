@@ -28,6 +28,8 @@ public:
     std::array<float, 3> Background{};
     bool Several = false;     ///< whether setBackground() will be called
     bool Antialiased = false; ///< scene/Drawing.h
+    /// Depth of the near plane; empty: that of the rules.
+    std::optional<float> Near = std::nullopt;
     /// \name The cameras
     /// @{
     const LensModel *Optics = CameraModel().Model;

@@ -6,6 +6,7 @@
 #include "io/Mean.h"
 #include "render/FrameTime.h"
 #include "render/Report.h"
+#include "render/WhatIf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,13 @@ bool ClockSamples::add(TimedIteration T) {
   return true;
 }
 
+std::vector<std::pair<unsigned, double>> ClockSamples::milliseconds() const {
+  std::vector<std::pair<unsigned, double>> Times;
+  for (std::size_t I = 0; I != All.size(); ++I)
+    Times.emplace_back(All[I].Number, Milliseconds[I]);
+  return Times;
+}
+
 double ClockSamples::rate() const { return 1e3 / meanOf(Milliseconds); }
 
 std::string ClockSamples::text() const {
@@ -64,7 +72,8 @@ std::string ClockSamples::machine() const {
 }
 
 std::string ClockSamples::lastByStage() const {
-  return frameText(All.back().Stages, "iteration");
+  const std::vector<StageReport> &Stages = All.back().Stages;
+  return boundsText(frameJson(Stages), {}, "") + frameText(Stages, "iteration");
 }
 
 Expected<Json>

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vorion::splat {
@@ -29,6 +30,9 @@ class ClockSamples {
 public:
   /// Returns false, and adds nothing, if the device reported no time.
   [[nodiscard]] bool add(TimedIteration T);
+
+  /// Numbers of the timed iterations and their times, ms.
+  std::vector<std::pair<unsigned, double>> milliseconds() const;
 
   bool empty() const { return Milliseconds.empty(); }
   /// Iterations per second, from the mean time.

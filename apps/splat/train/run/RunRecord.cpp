@@ -5,6 +5,7 @@
 #include "io/Hash.h"
 #include "vorion/support/Json.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -62,9 +63,23 @@ std::string hashPoints(const CapturePoints &Points) {
     All.append(reinterpret_cast<const char *>(Values.data()),
                Values.size() * sizeof(Values[0]));
   };
-  Add(Points.Positions);
+  Add(Points.local());
   Add(Points.Colours);
   return fnv1a64(All);
+}
+
+Expected<WorldPoint> originOf(const std::string &File, const std::string &Run) {
+  const auto Read = parseJson<Json>(Run, File, "a run's settings");
+  if (!Read)
+    return Read.error();
+  if (!Read->is_object() || !Read->contains(OriginKey))
+    return WorldPoint{};
+  const Json &Origin = Read->at(OriginKey);
+  if (!Origin.is_array() || Origin.size() != 3 ||
+      !std::ranges::all_of(Origin, [](const Json &X) { return X.is_number(); }))
+    return Error{File, fmt::format("the run's {} is {}, expected three numbers",
+                                   OriginKey, jsonText(Origin))};
+  return Origin.get<WorldPoint>();
 }
 
 Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
@@ -103,6 +118,10 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
     J["random_background"] = true;
   if (Run.Antialiased)
     J["antialiased"] = true;
+  if (Run.Near)
+    J["near"] = *Run.Near;
+  if (Run.Origin != WorldPoint{})
+    J[OriginKey] = Run.Origin;
   if (Run.Pictures == LensOf::Photograph)
     J["distorted"] = true;
   if (Run.Through != Spread::Jacobian)
@@ -130,6 +149,11 @@ static std::string_view inputOf(std::string_view Key) {
   if (Key == "extent")
     return ", from the cameras of training: --hold-out, --exclude and changed "
            "files change it";
+  if (Key == "near")
+    return ", by default from the distance of cameras and points: --near sets "
+           "it";
+  if (Key == OriginKey)
+    return ", from where training measures the capture's far coordinates";
   if (Key == "points")
     return ", hashes of the initial points";
   return "";

@@ -18,6 +18,11 @@ struct PictureSource {
   int Downscale = 1;
 };
 
+/// The key of TrainRun::Origin in records, which have none if it is 0.
+inline constexpr const char *OriginKey = "origin";
+/// That origin in \p Run, the record of the checkpoint \p File.
+Expected<WorldPoint> originOf(const std::string &File, const std::string &Run);
+
 /// Hash of pictures and poses.
 std::string hashPictures(const TrainingSet &Set);
 

@@ -13,11 +13,13 @@ Expected<Json> trainReport(const TrainRequest &R, const TrainOutcome &Out,
   auto Timed = Out.Timed.json(Energy);
   if (!Timed)
     return Timed;
-  Json Views = Json::array(), Scores = Json::array();
+  Json Views = Json::array(), Scores = Json::array(), Counts = Json::array();
   for (const auto &[Name, Db] : Out.HeldOut)
     Views.push_back({{"name", Name}, {"psnr8_db", Db}});
   for (const auto &[Iteration, Db] : Out.Scores)
     Scores.push_back({{"iteration", Iteration}, {"psnr8_db", Db}});
+  for (const auto &[Iteration, Gaussians] : Out.Counts)
+    Counts.push_back({{"iteration", Iteration}, {"gaussians", Gaussians}});
   const auto &B = Out.Without;
   const auto &P = Out.Poses;
   Json Report = reportHead("splat-train");
@@ -55,6 +57,7 @@ Expected<Json> trainReport(const TrainRequest &R, const TrainOutcome &Out,
                                  {"mean_picture", B->Mean},
                                  {"best_training_view", B->BestView}}
                           : Json()},
+       {"gaussian_counts", Counts},
        {"losses", Out.Losses}});
   return Report;
 }

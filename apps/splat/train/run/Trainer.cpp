@@ -35,11 +35,13 @@ std::vector<ProgramSpec> Trainer::programs(const TrainSettings &Settings,
   return Programs;
 }
 
-static std::vector<Camera> camerasOf(const std::vector<TrainView> &Views) {
+/// In the frame with the origin \p Origin.
+static std::vector<Camera> camerasOf(const std::vector<TrainView> &Views,
+                                     const WorldPoint &Origin) {
   std::vector<Camera> Cameras;
   Cameras.reserve(Views.size());
   for (const TrainView &V : Views)
-    Cameras.push_back(V.Pose);
+    Cameras.push_back(relativeTo(V.Pose, Origin));
   return Cameras;
 }
 
@@ -50,7 +52,8 @@ Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
       Order(Photos.Training.size(), What.Seed),
       Loss(Launch, What.Settings.DSsim),
       Exposed(Launch, What.Settings, Photos.Training.size()),
-      Posed(Launch, What.Settings, camerasOf(Photos.Training), What.Extent),
+      Posed(Launch, What.Settings, camerasOf(Photos.Training, What.Origin),
+            What.Extent),
       Processes(Processes),
       Density(Launch, What.Settings, What.Seed, What.Extent),
       Mcmc(Launch, What.Settings, What.Seed),
@@ -115,7 +118,7 @@ ViewBatch::ViewResult Trainer::take(uint64_t Place, int ShDegree) {
   const std::size_t View = Order.at(Place);
   const TrainView &V = Pictures.Training[View];
   if (!Run.RandomBackground)
-    return lossOf(Renderer.forward(State, pose(View), ShDegree), View,
+    return lossOf(Renderer.forward(State, Posed.at(View), ShDegree), View,
                   V.Picture);
   const philox_words W =
       philox(static_cast<uint>(Run.Seed), static_cast<uint>(Run.Seed >> 32),
@@ -124,7 +127,7 @@ ViewBatch::ViewResult Trainer::take(uint64_t Place, int ShDegree) {
   const std::array<float, 3> Colour{
       philox_unit(W.word[0]), philox_unit(W.word[1]), philox_unit(W.word[2])};
   Renderer.setBackground(Colour);
-  const cl::Buffer Drawn = Renderer.forward(State, pose(View), ShDegree);
+  const cl::Buffer Drawn = Renderer.forward(State, Posed.at(View), ShDegree);
   return lossOf(Drawn, View, over(V, Run.Background, Colour));
 }
 
@@ -256,14 +259,24 @@ StepReport Trainer::step() {
 
 Scene Trainer::scene() {
   Launch.beginStage(Stage::ReadBack);
-  return State.download(Launch);
+  Scene S = State.download(Launch);
+  S.Origin = Run.Origin;
+  return S;
+}
+
+Camera Trainer::pose(std::size_t View) const {
+  Camera C = Posed.at(View);
+  for (std::size_t A = 0; A < 3; ++A)
+    C.Position[A] += Run.Origin[A];
+  return C;
 }
 
 Photo Trainer::render(const Camera &C) {
   const int Degree = shDegreeAt(Run.Settings, Done, State.ShDegree);
   if (Run.RandomBackground)
     Renderer.setBackground(Run.Background);
-  const cl::Buffer Picture = Renderer.forward(State, C, Degree);
+  const cl::Buffer Picture =
+      Renderer.forward(State, relativeTo(C, Run.Origin), Degree);
   Launch.beginStage(Stage::ReadBack);
   Photo P{C.Width, C.Height, {}};
   const std::size_t Pixels =

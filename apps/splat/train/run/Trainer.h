@@ -38,6 +38,11 @@ struct TrainRun {
   /// Whether original photographs are used, with their lenses.
   LensOf Pictures = LensOf::Undistorted;
   Spread Through = Spread::Jacobian;
+  /// Depth of the near plane; empty: that of the rules.
+  std::optional<float> Near = std::nullopt;
+  /// Of the frame in which the scene is trained (\c CapturePoints). Cameras and
+  /// the result are in the capture's.
+  WorldPoint Origin{};
 
   /// Whether the background is white, which adds an opacity reset.
   bool isWhite() const {
@@ -81,7 +86,7 @@ public:
   const std::vector<float> &losses() const { return Losses; }
   Scene scene();
   /// The corrected pose of training view \p View.
-  Camera pose(std::size_t View) const { return Posed.at(View); }
+  Camera pose(std::size_t View) const;
   PoseChange poseChange() const { return Posed.change(); }
 
   /// Renders the scene in the view \p C, rounded to 8 bits.

@@ -2,6 +2,8 @@
 
 #include "io/Hash.h"
 #include "io/Mean.h"
+#include "picture/Layout.h"
+#include "picture/SceneUnit.h"
 #include "picture/View.h"
 #include "train/data/Start.h"
 #include "train/run/RunRecord.h"
@@ -75,12 +77,12 @@ void noteStart(const Work &W) {
         Most, Points));
   if (Points != 0)
     return;
-  const std::size_t Seeing = viewsOfRandomPoints(W.Photos);
-  if (2 * Seeing < W.Photos.Views.size())
+  const RandomCube Cube = randomCube(W.Photos);
+  if (2 * Cube.SeenBy < W.Photos.Views.size())
     W.Host.Note(fmt::format(
-        "the capture has no points, and {} of {} views see the origin, around "
-        "which random initial points are placed (docs/captures.md)",
-        Seeing, W.Photos.Views.size()));
+        "the capture has no points, and {} of {} views see {}, around which "
+        "random initial points are placed (docs/captures.md)",
+        Cube.SeenBy, W.Photos.Views.size(), Cube.centreText()));
 }
 
 MomentsOn placeOfMoments(const TrainRequest &R, const Device &D) {
@@ -129,14 +131,28 @@ void noteWithoutGradient(const Work &W, const StepReport &Step, bool &Said) {
       Step.Iteration, Step.Density->WithoutGradient, Step.Density->Before));
 }
 
+/// What the host does between two iterations; returns the time that it took.
+Clock::duration between(const Work &W, Launcher &Launch, Trainer &T,
+                        const TrainProgress &Progress) {
+  const Clock::time_point Begun = Clock::now();
+  Launch.setProfiled(false);
+  if (!W.Host.Between({Progress, W.Out, T.losses(),
+                       [&T](const Camera &C) { return T.render(C); },
+                       [] { return Interrupted != 0; }}))
+    Interrupted = SIGINT;
+  Launch.takeStages();
+  return Clock::now() - Begun;
+}
+
 Expected<Success> loop(const Work &W, Launcher &Launch,
                        DeviceRenderer &Renderer, Trainer &T) {
-  const Clock::time_point Start = Clock::now();
+  Clock::time_point Start = Clock::now();
   const unsigned First = W.Out.First = T.iteration();
   const unsigned Last = W.Request.Run.Settings.Iterations;
   ClockSamples &Samples = W.Out.Timed;
   bool SaidWithoutGradient = false;
   double FirstSeconds = 0;
+  W.Out.Counts.emplace_back(First, T.gaussians());
   while (T.iteration() < Last && !W.Processes.any(Interrupted != 0)) {
     const bool Timed =
         W.Request.TimeEvery &&
@@ -159,10 +175,17 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
                    ExitCode::Internal});
     if (W.Processes.first())
       noteWithoutGradient(W, Step, SaidWithoutGradient);
+    if (Step.Gaussians != W.Out.Counts.back().second)
+      W.Out.Counts.emplace_back(Step.Iteration, Step.Gaussians);
+    const TrainProgress Progress{
+        Step,
+        First,
+        Last,
+        secondsSince(Start),
+        FirstSeconds,
+        Samples.empty() ? std::nullopt : std::optional(Samples.rate())};
     if (W.Processes.first())
-      W.Host.Progress(
-          {Step, First, Last, secondsSince(Start), FirstSeconds,
-           Samples.empty() ? std::nullopt : std::optional(Samples.rate())});
+      W.Host.Progress(Progress);
     if (W.Processes.first() && W.Request.ScoreEvery != 0 &&
         Step.Iteration % W.Request.ScoreEvery == 0 &&
         !W.Pictures.HeldOut.empty()) {
@@ -170,6 +193,8 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
       W.Out.Scores.emplace_back(Step.Iteration, meanOf(T.evaluate()));
       Launch.takeStages();
     }
+    if (W.Processes.first() && W.Host.Between)
+      Start += between(W, Launch, T, Progress);
     if (Step.Iteration % W.Request.CheckpointEvery == 0 &&
         Step.Iteration != Last)
       if (auto Kept = keep(W, Launch, T); !Kept)
@@ -232,6 +257,18 @@ Expected<Success> resume(const Work &W, Trainer &T) {
   return Success{};
 }
 
+/// Moves the scene of \p C from the frame with the origin \p From to that of
+/// \p To.
+void changeFrame(Checkpoint &C, const WorldPoint &From, const WorldPoint &To) {
+  const std::size_t N = C.gaussians();
+  for (std::size_t K = 0; K < 3; ++K)
+    if (const double By = From[K] - To[K]; By != 0)
+      for (std::size_t I = 0; I < N; ++I) {
+        float &Mean = C.Geometry[(PLANE_MEAN + K) * N + I];
+        Mean = static_cast<float>(Mean + By);
+      }
+}
+
 /// Gives \p T another run's checkpoint, or the capture's points.
 Expected<Success> begin(const Work &W, Trainer &T) {
   const TrainRequest &R = W.Request;
@@ -242,11 +279,15 @@ Expected<Success> begin(const Work &W, Trainer &T) {
                                      S.StartOpacity, S.StartScale}));
     return Success{};
   }
-  const auto Other = readCheckpoint(R.From);
+  auto Other = readCheckpoint(R.From);
   if (!Other)
     return Other.error();
   if (auto Checked = checkBeginning(R, *Other); !Checked)
     return Checked;
+  const auto Origin = originOf(R.From, Other->Run);
+  if (!Origin)
+    return Origin.error();
+  changeFrame(*Other, *Origin, R.Run.Origin);
   T.restore(*Other);
   return Success{};
 }
@@ -299,13 +340,16 @@ Expected<Success> start(Work &W, Trainer &T) {
   return checkReplaced(W, T.iteration());
 }
 
-/// Finds out what the request leaves open: the cameras' extent, and hashes of
-/// what the run begins with.
+/// Finds out what the request leaves open: the cameras' extent, the near plane,
+/// and hashes of what the run begins with.
 Expected<Success> complete(TrainRequest &R, const Capture &C) {
-  R.Run.Extent = cameraRing(C).extent();
+  R.Run.Extent = sceneExtent(C);
   if (!(R.Run.Extent > 0))
     return Error{R.Capture, "all training cameras have the same position, "
                             "expected cameras around the scene"};
+  if (!R.Run.Near)
+    R.Run.Near = nearOfSmallScene(R.Convention, C.poses(), sampleOf(C));
+  R.Run.Origin = C.Points.Origin;
   if (R.From.empty()) {
     R.Run.Points = hashPoints(C.Points);
     return Success{};
@@ -339,6 +383,7 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
   if (Launch.failure())
     return *Launch.failure();
   Out.Record = W.Record;
+  Out.Near = W.Request.Run.Near;
   Out.DeviceName = D.name();
   Out.DeviceVersion = D.version();
   const Camera &First = W.Pictures.Training.front().Pose;
@@ -347,6 +392,7 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
   Out.TrainingViews = W.Pictures.Training.size();
   Out.HeldOutBy = W.Photos.HeldOutBy;
   Out.WithoutPicture = W.Photos.WithoutPicture;
+  Out.Notes = W.Photos.Notes;
   Out.Distorted = W.Photos.distorted();
   Out.Masked = W.Photos.masked();
   Out.Depths = W.Pictures.depths();
@@ -411,8 +457,9 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
     Launch.build(P);
   DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
                           {R.Run.Background, R.Run.RandomBackground,
-                           R.Run.Antialiased, *Model, isRolling(Cameras),
-                           R.Run.Through, factsOfCameras(Cameras)});
+                           R.Run.Antialiased, R.Run.Near, *Model,
+                           isRolling(Cameras), R.Run.Through,
+                           factsOfCameras(relativeTo(Cameras, R.Run.Origin))});
   Trainer T(Launch, Renderer, *Pictures, R.Run, Processes, Out.Moments);
   if (auto Started = start(W, T); !Started)
     return Started;
@@ -420,6 +467,9 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
     Host.ShowBuildLog(Launch);
     return *Launch.failure();
   }
+  if (Processes.first() && Host.Begin)
+    if (auto Begun = Host.Begin(*Pictures); !Begun)
+      return Begun;
   Ready = true;
   if (auto All = Processes.agree(Success{}); !All)
     return All;

@@ -63,6 +63,19 @@ struct TrainProgress {
   std::optional<double> MachineRate;
 };
 
+struct TrainOutcome;
+
+/// A run between two iterations.
+struct TrainMoment {
+  const TrainProgress &Progress;
+  const TrainOutcome &SoFar; ///< its Counts, Scores and Timed
+  const std::vector<float> &Losses;
+  /// Renders the scene as it is, rounded to 8 bits. The camera must have the
+  /// size and the lens of one of the run's.
+  std::function<Photo(const Camera &)> Render;
+  std::function<bool()> IsInterrupted;
+};
+
 /// Callbacks of a run. Each process that mpirun started has its own.
 struct TrainHost {
   /// Checks all other options; called first.
@@ -77,6 +90,11 @@ struct TrainHost {
                                                        ///< iteration
   std::function<void()> EndProgress;
   std::function<void(std::string_view)> Note; ///< prints a line
+  /// May be empty. Called once before the first iteration.
+  std::function<Expected<Success>(const TrainingSet &)> Begin;
+  /// May be empty. Called after each iteration. Its time is not that of the
+  /// run. If the result is false, the run ends as by SIGINT.
+  std::function<bool(const TrainMoment &)> Between;
   /// @}
 };
 
@@ -90,9 +108,11 @@ struct TrainOutcome {
   std::string HeldOutBy; ///< criterion for held-out views
   /// Number of views without a picture; with distortion; with a mask.
   std::size_t WithoutPicture = 0, Distorted = 0, Masked = 0;
+  std::vector<std::string> Notes; ///< of the capture
   std::size_t Depths = 0; ///< number of pixels of training pictures with a
                           ///< known depth
   std::optional<PoseChange> Poses; ///< if poses were corrected
+  std::optional<float> Near; ///< depth of the near plane, if not the rules' own
   MomentsOn Moments = MomentsOn::Device;
   unsigned Processes = 1;
   unsigned First = 0, Iterations = 0; ///< done before, and in total
@@ -101,6 +121,9 @@ struct TrainOutcome {
   double Seconds = 0;        ///< wall time of the loop
   ClockSamples Timed;
   std::vector<float> Losses; ///< of every iteration
+  /// Iterations from which on there was another number of Gaussians, and that
+  /// number; from First on.
+  std::vector<std::pair<unsigned, uint32_t>> Counts;
   /// Iterations, and the held-out views' mean PSNR after them.
   std::vector<std::pair<unsigned, double>> Scores;
   /// Names of the held-out views, and the PSNR of their 8-bit values.

@@ -13,7 +13,8 @@ const isMove = key => key in MOVES || key in TURNS || key in NEAR;
 const isTyping = event => event.target.closest?.('select, input, button, summary, textarea') !== null;
 
 // `hands`: eye() gives the eye, orbits() whether it turns about what it looks at, moved() is told of every step, clicked(x, y)
-// of a click by shares of the picture, key(k) of other keys; it returns whether it took the key.
+// and clickedTwice(x, y) of clicks by shares of the picture, key(k) of other keys; it returns whether it took the key. While
+// paints() is true, one finger or the left button paints: painted(x, y, begins) is told of each place, and paintedAll(event) at last.
 export function takeKeys(hands) {
   let last = 0;
   const act = (key, seconds) => {
@@ -52,9 +53,15 @@ export function takeKeys(hands) {
 
 export const keysHeld = () => held.size > 0;
 
+const TWICE = 300; // ms between two clicks that are one double click
+
 export function takePointer(canvas, hands) {
   const pointers = new Map();
-  let travelled = 0;
+  let travelled = 0, once = null, painting = false;
+  const shareOf = event => {
+    const box = canvas.getBoundingClientRect();
+    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+  };
   const spread = () => {
     const [a, b] = [...pointers.values()];
     return Math.hypot(a.x - b.x, a.y - b.y);
@@ -63,10 +70,17 @@ export function takePointer(canvas, hands) {
     canvas.setPointerCapture(event.pointerId);
     if (pointers.size === 0) travelled = 0;
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    // A second finger moves, as it does otherwise.
+    painting = pointers.size === 1 && event.button === 0 && Boolean(hands.paints?.());
+    if (painting) hands.painted(...shareOf(event), true);
   });
   canvas.addEventListener('pointermove', event => {
     const before = pointers.get(event.pointerId);
     if (!before) return;
+    if (painting) {
+      hands.painted(...shareOf(event), false);
+      return;
+    }
     const wide = pointers.size === 2 ? spread() : 0;
     const dx = event.clientX - before.x, dy = event.clientY - before.y;
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
@@ -82,9 +96,19 @@ export function takePointer(canvas, hands) {
     hands.moved();
   });
   const end = event => {
-    if (!pointers.delete(event.pointerId) || event.type === 'pointercancel' || travelled >= 4 || pointers.size) return;
-    const box = canvas.getBoundingClientRect();
-    hands.clicked((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
+    if (!pointers.delete(event.pointerId)) return;
+    if (painting) {
+      painting = false;
+      hands.paintedAll(event);
+      return;
+    }
+    if (event.type === 'pointercancel' || travelled >= 4 || pointers.size) return;
+    clearTimeout(once);
+    if (once !== null) hands.clickedTwice?.(...shareOf(event));
+    once = once !== null ? null : setTimeout(() => {
+      once = null;
+      hands.clicked?.(...shareOf(event));
+    }, TWICE);
   };
   canvas.addEventListener('pointerup', end);
   canvas.addEventListener('pointercancel', end);

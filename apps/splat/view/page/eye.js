@@ -17,33 +17,51 @@ export class Eye {
     const column = k => camera.rotation.map(row => row[k]);
     this.optics = camera.lens;
     this.isChoice = camera.lens_is_a_choice;
-    Object.assign(this, { position: [...camera.position], right: column(0), down: column(1), forward: column(2), up, size });
-    const fit = size.width / camera.width;
-    this.lens = {
-      fx: camera.fx * fit, fy: camera.fy * fit, cx: camera.cx * fit, cy: camera.cy * fit + (size.height - camera.height * fit) / 2
-    };
+    Object.assign(this, { position: [...camera.position], right: column(0), down: column(1), forward: column(2), up, shows: camera });
+    this.fit(size);
     const middle = box.length ? scale(add(box[0], box[1]), 0.5) : [0, 0, 0];
     this.radius = box.length ? Math.max(Math.hypot(...add(box[1], scale(box[0], -1))) / 2, 1e-6) : 1;
     const ahead = dot(add(middle, scale(this.position, -1)), this.forward);
     this.distance = ahead > 0 ? ahead : this.radius;
   }
 
-  // A level camera before the middle of `box`, at which all of it is in the picture.
-  static ahead(box, { width, height }, up) {
-    const middle = box.length ? scale(add(box[0], box[1]), 0.5) : [0, 0, 0];
-    const radius = box.length ? Math.hypot(...add(box[1], scale(box[0], -1))) / 2 : 1;
-    const focal = 0.87 * width;
-    const down = scale(up, -1), right = unit(cross(down, Math.abs(up[2]) < 0.7 ? [0, 0, 1] : [0, 1, 0]));
-    const forward = cross(right, down);
-    return {
-      name: 'whole scene', width, height, position: add(middle, scale(forward, -radius * focal / (height / 2))),
-      rotation: [0, 1, 2].map(i => [right[i], down[i], forward[i]]), fx: focal, fy: focal, cx: width / 2, cy: height / 2
-    };
+  // For pictures of another size, of the same field of view from left to right.
+  fit(size) {
+    const { width, height, fx, fy, cx, cy } = this.shows, by = size.width / width;
+    this.size = size;
+    this.lens = { fx: fx * by, fy: fy * by, cx: cx * by, cy: cy * by + (size.height - height * by) / 2 };
+  }
+
+  // All that moving changes, as numbers, and back; nothing changes for what are none.
+  values() {
+    return [...this.position, ...this.right, ...this.down, ...this.forward, this.distance];
+  }
+  restore(values) {
+    if (values.length !== 13 || !values.every(Number.isFinite)) return;
+    ['position', 'right', 'down', 'forward'].forEach((key, n) => { this[key] = values.slice(3 * n, 3 * n + 3); });
+    [this.distance] = values.slice(12);
+  }
+
+  // What is looked at, and about which the eye turns.
+  target() {
+    return add(this.position, scale(this.forward, this.distance));
+  }
+
+  // Looks at `point` from where it is, level.
+  lookAt(point) {
+    const to = add(point, scale(this.position, -1)), distance = Math.hypot(...to);
+    if (!(distance > 0)) return;
+    this.distance = distance;
+    this.forward = scale(to, 1 / distance);
+    const right = cross(this.forward, this.up), length = Math.hypot(...right);
+    // Straight up and down is no horizon.
+    this.right = length > 0.05 ? scale(right, 1 / length) : unit(cross(this.down, this.forward));
+    this.down = cross(this.forward, this.right);
   }
 
   // Radians to the right and down, about what is looked at or about the eye.
   turn(right, down, aboutTarget) {
-    const target = add(this.position, scale(this.forward, this.distance));
+    const target = this.target();
     // Straight up and down is where left and right change places.
     const high = Math.asin(Math.max(-1, Math.min(1, dot(this.forward, this.up))));
     const most = 1.53;
@@ -73,7 +91,7 @@ export class Eye {
 
   // Nearer to what is looked at by factor `by` of the distance.
   near(by) {
-    const target = add(this.position, scale(this.forward, this.distance));
+    const target = this.target();
     this.distance = Math.max(this.distance * by, this.radius * 1e-4);
     this.position = add(target, scale(this.forward, -this.distance));
   }

@@ -49,3 +49,7 @@ export function showKnobs(table, knobs, settings, two, changed) {
 // As the server names it: "default", "exp=poly3,tile=32".
 export const settingName = chosen =>
   Object.entries(chosen).map(([name, value]) => `${name}=${value}`).join(',') || 'default';
+
+// The other way round; of values that there are.
+export const chosenBy = (name = '', knobs = []) => Object.fromEntries(name.split(',').map(part => part.split('='))
+  .filter(([of, value]) => knobs.some(k => k.name === of && k.values.indexOf(value) > 0)));

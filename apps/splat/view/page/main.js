@@ -1,36 +1,96 @@
 // The page: keeps a picture up to date with where one looks from.
-import { openScene, readFrame, readPixel, readScene } from './api.js';
+import { readAddress, writeAddress } from './address.js';
+import { openScene, read, readFrame, tell, token } from './api.js';
 import { keysHeld, takeKeys, takePointer } from './controls.js';
 import { takeDrops } from './drop.js';
 import { byId, element } from './element.js';
+import { Editor } from './edit.js';
 import { Eye } from './eye.js';
-import { settingName, showKnobs } from './knobs.js';
+import { chosenBy, settingName, showKnobs } from './knobs.js';
 import { showFacts, showLegend, showPixel } from './panels.js';
+import { announce, remember, waitForServer } from './reconnect.js';
+import { fileName, savePng } from './save.js';
+import { pictureSize } from './size.js';
 
 const REST = 250;            // ms without a step until a whole picture is drawn
 const SLOW = 180, FAST = 70; // ms of a frame on the way: coarser above, finer below
-const COARSEST = 4;
+const COARSEST = 8;
+const LOOKS = 2000;          // ms between two looks at whether the server is there and shows the same scene
 const HEATS = ['list', 'blends', 'cycles', 'saturation'];
 const SIDES = ['a', 'b'];
 
-let scene, eye;
+let scene, eye, base, size, editor;
 const settings = { a: {}, b: {} };
 const facts = { a: null, b: null };
 let coarse = 2, version = 0, wholeVersion = -1, lastStep = -Infinity, frameTime = 0, busy = false, stop = null;
+// Wall seconds of a measurement of cycles for each second of the picture's simulation, as the last one took.
+let clockFactor = 15;
 
 const two = () => byId('compare').checked;
 const sides = () => two() ? SIDES : ['a'];
 const layer = () => byId('layer').value;
-const orbits = () => document.querySelector('[name=motion]:checked').value === 'orbit';
+const motion = () => document.querySelector('[name=motion]:checked').value;
+const orbits = () => motion() === 'orbit';
 const figure = side => byId(`view-${side}`);
 const canvasOf = side => figure(side).querySelector('canvas');
 const status = text => { byId('status').textContent = text; };
 const isMoving = () => keysHeld() || performance.now() - lastStep < REST;
 const wait = ms => new Promise(done => setTimeout(done, ms));
+const cameraName = () => byId('camera').value === '' ? 'free' : scene.cameras[byId('camera').value].name;
 
 function problem(failure) {
+  if (failure?.lost) {
+    status('');
+    waitForServer(text => problem(new Error(text)));
+    return;
+  }
   byId('problem').hidden = !failure;
   byId('problem').textContent = failure ? failure.message : '';
+}
+
+// The state of the page that differs from that of a new one.
+function state() {
+  const all = {
+    motion: orbits() ? '' : 'fly', layer: layer() === 'picture' ? '' : layer(),
+    lens: byId('lens').checked === scene.through_lens ? '' : byId('lens').checked ? 'on' : 'off',
+    cycles: byId('cycles').checked ? '' : 'off', errors: byId('errors').checked ? 'on' : '', two: two() ? 'on' : ''
+  };
+  for (const [side, name] of [['a', 'left'], ['b', 'right']])
+    if (Object.keys(settings[side]).length) all[name] = settingName(settings[side]);
+  const free = byId('camera').value === '';
+  if (free || scene.cameras[0] !== base) Object.assign(all, { scene: scene.name, camera: base.name });
+  if (free) all.eye = eye.values().join(',');
+  return Object.fromEntries(Object.entries(all).filter(([, text]) => text));
+}
+
+function keepAddress() {
+  const now = state();
+  remember(now);
+  writeAddress(token, now);
+}
+
+// What the address says, before the first picture.
+function takeState(kept) {
+  const check = (id, name, otherwise) => { byId(id).checked = kept[name] ? kept[name] === 'on' : otherwise; };
+  check('lens', 'lens', scene.through_lens);
+  check('cycles', 'cycles', true);
+  check('errors', 'errors', false);
+  check('compare', 'two', false);
+  document.querySelector(`[name=motion][value=${kept.motion === 'fly' ? 'fly' : 'orbit'}]`).checked = true;
+  if (scene.layers.includes(kept.layer)) byId('layer').value = kept.layer;
+  settings.a = chosenBy(kept.left, scene.knobs);
+  settings.b = chosenBy(kept.right, scene.knobs);
+}
+
+// Of another scene, a camera says nothing.
+function takeCamera(kept) {
+  const found = kept.scene === scene.name ? scene.cameras.findIndex(c => c.name === kept.camera) : -1;
+  byId('camera').value = String(Math.max(found, 0));
+  choose(scene.cameras[Math.max(found, 0)]);
+  if (found < 0 || !kept.eye) return;
+  eye.restore(kept.eye.split(',').map(Number));
+  byId('camera').value = '';
+  changed();
 }
 
 function paint(side, image) {
@@ -45,7 +105,10 @@ function changed() {
   ++version;
   for (const mark of document.querySelectorAll('.mark')) mark.hidden = true;
   byId('gaussians').hidden = true;
-  byId('pixel-about').textContent = 'Click into the picture, or press Enter for its middle.';
+  byId('pixel-about').textContent = 'Click into the picture, or press Enter for its middle. A double click turns to what is there.';
+  byId('command').hidden = true;
+  byId('facts').classList.add('past');
+  editor?.moved();
   stop?.abort();
   stop = null;
   keepUp();
@@ -85,16 +148,42 @@ function steps() {
   return all;
 }
 
+// Says `what` with the seconds that it takes, of about `expected`, until the promise `work` is done.
+async function timed(what, expected, work) {
+  const begun = performance.now(), bar = byId('progress');
+  const say = () => {
+    const passed = (performance.now() - begun) / 1000;
+    status(`${what} … ${passed.toFixed(0)} s${expected > 1 ? ` of about ${Math.ceil(Math.max(expected, passed))} s` : ''}`);
+    bar.value = Math.min(0.99, passed / Math.max(expected, 0.1));
+  };
+  const ticks = setInterval(say, 250);
+  say();
+  bar.hidden = false;
+  try {
+    return await work;
+  } finally {
+    clearInterval(ticks);
+    bar.hidden = true;
+  }
+}
+
 async function drawWhole(of) {
+  keepAddress();
+  editor?.changed();
   facts.a = facts.b = null;
   for (const { says, ...step } of steps())
     for (const side of sides()) {
       if (of !== version) return;
-      if (says) status(`${says} …`);
       stop = new AbortController();
-      const answer = await readFrame(request(side, step), stop.signal);
+      const begun = performance.now(), expected = step.clock ? clockFactor * (facts[side]?.seconds ?? 0) : 0;
+      const answered = readFrame(request(side, step), stop.signal);
+      const answer = await (says ? timed(says, expected, answered) : answered);
       if (of !== version) return;
       facts[side] = { ...facts[side], ...answer.facts };
+      // A kept answer comes at once, and says nothing of the next.
+      const took = (performance.now() - begun) / 1000;
+      if (step.clock && took > 0.3) clockFactor = took / answer.facts.seconds;
+      facts[side].from = `${cameraName()}, ${answer.facts.width}x${answer.facts.height}`;
       if (!says || step.layer === layer()) {
         paint(side, answer.image);
         showLegend(figure(side), answer.facts.scale, scene.ramp);
@@ -106,6 +195,7 @@ async function drawWhole(of) {
 }
 
 function show() {
+  byId('facts').classList.remove('past');
   showFacts(sides().map(side => facts[side]));
   for (const side of sides()) {
     const f = facts[side];
@@ -148,33 +238,58 @@ async function keepUp() {
 }
 
 function choose(camera) {
-  eye = new Eye(camera, scene.box, { width: scene.width, height: scene.height }, scene.up);
+  base = camera;
+  eye = new Eye(camera, scene.box, size, scene.up);
   byId('lens').disabled = !eye.isChoice;
   changed();
 }
 
-function setUp(described) {
-  scene = described;
-  if (!scene.cameras.length) scene.cameras = [Eye.ahead(scene.box, scene, scene.up)];
-  byId('name').textContent = document.title = scene.name;
-  byId('about').textContent = `${scene.gaussians.toLocaleString('en')} Gaussians, SH degree ${scene.sh_degree}, ${scene.format}; ${scene.width}x${scene.height} on ${scene.device}`;
-  byId('camera').replaceChildren(...scene.cameras.map((c, n) => element('option', { value: n }, c.name)),
-    element('option', { value: '', disabled: '' }, 'free'));
-  byId('camera').selectedIndex = 0;
-  byId('lens').checked = scene.through_lens;
-  byId('lens').parentElement.hidden = !scene.cameras.some(c => c.lens_is_a_choice);
-  const kept = layer();
-  byId('layer').replaceChildren(...scene.layers.map(l => element('option', { value: l }, l)));
-  if (kept) byId('layer').value = kept;
-  arrange();
-  choose(scene.cameras[0]);
-}
-
+// Fits the pictures to the page; they are drawn again where that changes their size.
 function arrange() {
   byId('view-b').hidden = !two();
   byId('views').classList.toggle('two', two());
-  for (const side of SIDES) figure(side).querySelector('canvas').style.aspectRatio = `${scene.width} / ${scene.height}`;
-  showKnobs(byId('knobs'), scene.knobs, settings, two(), changed);
+  const fixed = scene.width && { width: scene.width, height: scene.height };
+  const next = pictureSize(byId('views'), fixed, scene.most_pixels, sides().length);
+  for (const side of SIDES) canvasOf(side).style.aspectRatio = `${next.width} / ${next.height}`;
+  const isOther = size?.width !== next.width || size?.height !== next.height;
+  size = next;
+  if (!isOther || !eye) return;
+  eye.fit(size);
+  // Of a window that is being resized, coarse pictures until it rests.
+  lastStep = performance.now();
+  changed();
+}
+
+const showSettings = () => showKnobs(byId('knobs'), scene.knobs, settings, two(), changed);
+
+// `kept`: what the page was before, as its address has it.
+function setUp(described, kept) {
+  scene = described;
+  byId('name').textContent = document.title = scene.name;
+  byId('about').textContent = `${scene.gaussians.toLocaleString('en')} Gaussians, SH degree ${scene.sh_degree}, ${scene.format}; on ${scene.device}`;
+  byId('camera').replaceChildren(...scene.cameras.map((c, n) => element('option', { value: n }, c.name)),
+    element('option', { value: '', disabled: '' }, 'free'));
+  byId('lens').parentElement.hidden = !scene.cameras.some(c => c.lens_is_a_choice);
+  byId('layer').replaceChildren(...scene.layers.map(l => element('option', { value: l }, l)));
+  takeState(kept);
+  showSettings();
+  arrange();
+  takeCamera(kept);
+  editor ??= new Editor({
+    scene: () => scene, eye: () => eye, camera: () => request('a').camera, figure: () => figure('a'), pixelPoint: pointAt,
+    replaced: next => setUp(next, state()), problem, status
+  });
+  editor.began();
+}
+
+// Another page may have opened or edited a scene.
+async function look() {
+  if (document.hidden || document.documentElement.dataset.away) return;
+  try {
+    if ((await read('number')).scene !== scene.number) setUp(await read('scene'), state());
+  } catch (failure) {
+    if (failure.lost) problem(failure);
+  }
 }
 
 async function open(name, bytes) {
@@ -182,24 +297,44 @@ async function open(name, bytes) {
   try {
     const described = await openScene(name, bytes, scene.most_bytes);
     problem(null);
-    setUp(described);
+    setUp(described, state());
   } catch (failure) {
     problem(failure);
     status('the scene before stays');
   }
 }
 
+const pixelAt = (x, y) => ({ x: Math.min(Math.floor(x * size.width), size.width - 1), y: Math.min(Math.floor(y * size.height), size.height - 1) });
+
+const pointAt = async (x, y) => (await readFrame(request('a', { layer: 'depth', ...pixelAt(x, y) }))).facts.point;
+
+// Turns to what is shown at these shares of the picture, which is then what an orbit goes about.
+async function turnTo(x, y) {
+  try {
+    const of = version, point = await pointAt(x, y);
+    if (of !== version) return;
+    if (!point) {
+      status('nothing is shown there to turn to');
+      return;
+    }
+    eye.lookAt(point);
+    stepped();
+  } catch (failure) {
+    problem(failure);
+  }
+}
+
 async function pick(x, y) {
-  const at = { x: Math.min(Math.floor(x * scene.width), scene.width - 1), y: Math.min(Math.floor(y * scene.height), scene.height - 1) };
+  const at = pixelAt(x, y);
   for (const side of sides()) {
     const mark = figure(side).querySelector('.mark');
-    mark.style.left = `${100 * (at.x + 0.5) / scene.width}%`;
-    mark.style.top = `${100 * (at.y + 0.5) / scene.height}%`;
+    mark.style.left = `${100 * (at.x + 0.5) / size.width}%`;
+    mark.style.top = `${100 * (at.y + 0.5) / size.height}%`;
     mark.hidden = false;
   }
   byId('pixel-about').textContent = 'Asking the reference …';
   try {
-    const of = version, pixel = await readPixel(request('a', at));
+    const of = version, pixel = await tell('pixel', request('a', at));
     if (of !== version) return;
     showPixel(pixel);
     problem(null);
@@ -214,13 +349,43 @@ function next(select) {
   select.dispatchEvent(new Event('change'));
 }
 
+function savePicture() {
+  for (const side of sides())
+    savePng(canvasOf(side), fileName(scene.name.replace(/\.[^.]*$/, ''), cameraName(), layer() === 'picture' ? '' : layer(), two() ? settingName(settings[side]) : ''));
+}
+
+// The commands that draw what is shown, a line each, on the page and in the clipboard.
+async function copyCommand() {
+  try {
+    const lines = await Promise.all(sides().map(async side => (await tell('command', request(side, { layer: layer() }))).command));
+    byId('command').value = lines.join('\n');
+    byId('command').hidden = false;
+    byId('command').select();
+    await navigator.clipboard.writeText(lines.join('\n'));
+    // Keys move the camera again.
+    byId('command').blur();
+    status(`the command is in the clipboard${scene.edits ? '; it draws the scene as it is saved' : ''}`);
+  } catch (failure) {
+    // Without the clipboard it can be copied by hand.
+    if (byId('command').hidden) problem(failure);
+  }
+}
+
+function fillScreen() {
+  if (document.fullscreenElement) document.exitFullscreen();
+  else byId('views').requestFullscreen().catch(problem);
+}
+
 const KEYS = {
   f: () => document.querySelector('[name=motion]:not(:checked)').click(),
   l: () => next(byId('layer')),
   c: () => byId('compare').click(),
   t: () => byId('lens').click(),
+  p: savePicture,
+  x: copyCommand,
+  z: fillScreen,
   r: () => {
-    byId('camera').value ||= '0';
+    if (byId('camera').value === '') byId('camera').value = String(scene.cameras.indexOf(base));
     byId('camera').dispatchEvent(new Event('change'));
   },
   Enter: () => pick(0.5, 0.5)
@@ -237,7 +402,8 @@ function key(name) {
 }
 
 function listen() {
-  const hands = { eye: () => eye, orbits, moved: stepped, clicked: pick, key };
+  const hands = { eye: () => eye, orbits, moved: stepped, clicked: pick, clickedTwice: turnTo, key,
+    paints: () => editor.paints(), painted: (x, y, begins) => editor.painted(x, y, begins), paintedAll: event => editor.paintedAll(event.shiftKey) };
   takeKeys(hands);
   for (const side of SIDES) takePointer(canvasOf(side), hands);
   takeDrops(open, problem);
@@ -248,17 +414,24 @@ function listen() {
   });
   byId('camera').addEventListener('change', () => choose(scene.cameras[byId('camera').value]));
   for (const id of ['layer', 'lens', 'cycles', 'errors']) byId(id).addEventListener('change', changed);
-  byId('compare').addEventListener('change', () => { arrange(); changed(); });
+  for (const radio of document.querySelectorAll('[name=motion]')) radio.addEventListener('change', keepAddress);
+  byId('compare').addEventListener('change', () => { showSettings(); arrange(); changed(); });
   byId('reset').addEventListener('click', () => {
     settings.a = {};
     settings.b = {};
-    arrange();
+    showSettings();
     changed();
   });
+  byId('save').addEventListener('click', savePicture);
+  byId('copy').addEventListener('click', copyCommand);
+  byId('full').addEventListener('click', fillScreen);
+  for (const event of ['resize', 'fullscreenchange']) window.addEventListener(event, arrange);
+  setInterval(look, LOOKS);
 }
 
 try {
-  setUp(await readScene());
+  setUp(await read('scene'), readAddress().state);
+  announce();
   listen();
 } catch (failure) {
   problem(failure);

@@ -6,6 +6,7 @@ const milli = seconds => `${(1000 * seconds).toFixed(1)} ms`;
 const short = n => n === 0 ? '0' : Math.abs(n) >= 0.001 && Math.abs(n) < 1e5 ? String(+n.toPrecision(4)) : n.toExponential(2);
 
 const FACTS = [
+  ['measured for', f => f.from ?? ''],
   ['cycles of the machine', f => f.cycles === undefined ? '' : whole(f.cycles)],
   ['time on the machine', f => f.machine_ms === undefined ? '' : `${f.machine_ms.toFixed(2)} ms`],
   ['machine', f => f.clocked_machine ?? ''],
@@ -37,8 +38,12 @@ export function showLegend(figure, scale, ramp) {
   const legend = figure.querySelector('.legend'), [low, colors, high, unit] = legend.children;
   legend.hidden = !scale?.unit;
   if (legend.hidden) return;
-  low.textContent = short(scale.low);
-  high.textContent = short(scale.high);
+  // A logarithmic scale has its powers of ten below it, and no values beside it.
+  const decades = scale.logarithmic ? Math.round(Math.log10(scale.high / scale.low)) : 0;
+  colors.replaceChildren(...Array.from({ length: decades ? decades + 1 : 0 }, (_, n) => element('span', {}, scale.high === 1 && n === decades ? '1'
+    : `1e${Math.round(Math.log10(scale.low)) + n}`)));
+  low.textContent = decades ? '' : short(scale.low);
+  high.textContent = decades ? '' : short(scale.high);
   unit.textContent = scale.unit;
   colors.style.background = `linear-gradient(to right, ${ramp.join(', ')})`;
 }

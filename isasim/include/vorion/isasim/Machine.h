@@ -4,6 +4,7 @@
 #pragma once
 
 #include "vorion/isasim/Config.h"
+#include "vorion/isasim/HostCommand.h"
 #include "vorion/isasim/Image.h"
 #include "vorion/isasim/Result.h"
 #include "vorion/support/Expected.h"
@@ -84,6 +85,23 @@ public:
   /// initially On. A change completes pending rasterizer commands in the timing
   /// model.
   void setClocking(Clocking Of);
+
+  /// \name Commands of the host, for the clock of a machine with DMA engines
+  /// They change nothing but times, and nothing while the clock is off. Not
+  /// during a run.
+  /// @{
+
+  /// The host sends the command of a copy; returns its number, or 0 if nobody
+  /// times it.
+  uint64_t copies(const HostCopy &Copy, CommandOrder Order);
+  /// The order of the next run's launch. Without a call it waits for all
+  /// commands before it.
+  void orderLaunch(CommandOrder Order);
+  /// The number of the last copy or launch; 0 if there was none.
+  uint64_t lastCommand() const;
+  /// The host waits until all copies have ended. This time belongs to no run.
+  void settle();
+  /// @}
 
   /// Wall-clock limit of a run, which then stops with Outcome::LimitReached; 0
   /// for no limit. Checked every few thousand instructions of a core, every few

@@ -15,6 +15,10 @@ struct AddressRange {
   uint64_t Bytes = 0;
 };
 
+/// First byte of global memory, the end of the I/O window: VX_GLOBAL_BASE, or
+/// the first page behind the raster CSRs of the last core.
+uint32_t globalBase(const Config &C);
+
 /// The range below the image, and the rest above it, which may be empty.
 std::array<AddressRange, 2> globalRanges(const Config &C);
 

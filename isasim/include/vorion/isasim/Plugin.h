@@ -1,8 +1,10 @@
-/// Third-party observers and exponential units, in a shared object that
-/// `vorion-sim --plugin` and VORION_PLUGINS load (docs/plugins.md).
+/// Third-party observers, exponential units and policies of the clock, in a
+/// shared object that `vorion-sim --plugin` and VORION_PLUGINS load
+/// (docs/plugins.md).
 #pragma once
 
 #include "vorion/isasim/Observer.h"
+#include "vorion/isasim/Policies.h"
 
 #include <cstdint>
 #include <memory>
@@ -11,14 +13,16 @@ namespace vorion::isasim {
 
 /// Version of the plugin interface and of its semantics. A simulator loads only
 /// plugins of its own version.
-inline constexpr uint32_t PluginVersion = 2;
+inline constexpr uint32_t PluginVersion = 3;
 
 /// Hash of the sizes of the types in the interface.
 constexpr uint64_t pluginLayout() {
   uint64_t Hash = 0;
   for (const uint64_t Size :
        {sizeof(Config), sizeof(Commit), sizeof(MemoryAccess), sizeof(Observer),
-        sizeof(RunResult), sizeof(RunStart), sizeof(Step), sizeof(Trap)})
+        sizeof(RunResult), sizeof(RunStart), sizeof(Step), sizeof(Trap),
+        sizeof(CacheInfo), sizeof(LineUse), sizeof(DramInfo),
+        sizeof(DramCandidate), sizeof(CoreInfo), sizeof(WarpToIssue)})
     Hash = Hash * 8191 + Size;
   return Hash;
 }
@@ -41,6 +45,9 @@ struct Plugin {
   /// machine, and destroyed with it. Null: no observer.
   std::unique_ptr<Observer> (*Make)() = nullptr;
   ExpUnitPlugin Exp = {};
+  /// Each replaces what other units have by themselves, in all machines of the
+  /// process that are opened from then on.
+  PolicyMakers Policies = {};
 };
 
 } // namespace vorion::isasim

@@ -65,11 +65,6 @@ std::span<const TimingParam> timingParams();
 /// (docs/model.md).
 std::string timingMarkdown();
 
-/// Bytes transferred over the link to the L2.
-struct LinkTime {
-  uint64_t ToL2 = 0, FromL2 = 0;
-};
-
 /// Event counts, the input of energy models.
 struct Activity {
   std::string_view Unit, Event;
@@ -89,12 +84,18 @@ struct TimeReport {
   std::vector<CoreTime> Cores;
   std::vector<RasterTime> Rasters;
   std::vector<PixelTime> PixelUnits;
+  /// \name If the machine has them (timing.host.dma_engines)
+  /// @{
+  std::vector<CommandTime> CommandProcessors; ///< one
+  std::vector<DmaTime> DmaEngines;
+  /// @}
   std::vector<CacheTime> L2;
   CacheTime Llc;
-  LinkTime LinkBytes; ///< counted if there is a link
+  LinkTime Link; ///< all 0 without a link
   DramTime Dram;
   std::vector<Activity> Activities;
-  HostTiming Host; ///< what launches and copies cost beside the run
+  HostTiming Host; ///< what launches and copies cost beside the run: without
+                   ///< DMA engines
   uint32_t DramBurstBytes = 0;
   /// Loads that hit data cache lines that other cores had written since.
   uint64_t StaleLoads = 0;

@@ -20,8 +20,15 @@ int pocl_find_cache_folder(int is_cached, char *path);
  * process. */
 void pocl_tell_of_private_cache(void);
 
-/* Makes the folder that somebody names for kernels, unless it is there. */
-int pocl_take_kernel_folder(const char *name, char *path);
+/* From here on programs, and what is made of them, are in no file: for
+   vorion-clang, which wants them once. To be called before the first build.
+   Precompiled headers are kept all the same. */
+void pocl_cache_keep_no_programs(void);
+int pocl_cache_keeps_programs(void);
+
+/* pocl_write_checked_file(), for programs. */
+int pocl_cache_write_program(const char *path, const char *content,
+                             uint64_t size);
 
 /* Copies the file at a place of the system's cache, below one of its folders or
  * "", to a path. -1, and no problem noted, if there is none that can be

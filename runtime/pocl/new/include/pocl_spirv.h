@@ -23,11 +23,14 @@ int pocl_spirv_is_kernel_module(const void *il, size_t length,
 int pocl_spirv_is_offered(cl_device_id device, const void *il, size_t length,
                           char text[POCL_SPIRV_TEXT]);
 
-/* Gives the specialization constant with this SpecId its value, of as many bits
- * as it has, in a module for OpenCL. The translator has an option for this, but
- * refuses values of 64 bits that have 17 digits. */
-void pocl_spirv_specialize(void *il, size_t length, uint32_t id,
-                           uint64_t value);
+/* Fills in the program's specialization constants, which its module declares.
+ * 0 on success, -1 without memory. */
+int pocl_spirv_find_constants(cl_program program);
+
+/* The program's module as the compiler gets it, to be freed: in common forms,
+ * with the values of the specialization constants that were set. A null pointer
+ * without memory. */
+void *pocl_spirv_specialized(cl_program program, size_t *length);
 
 /* The same module, to be freed, with what llvm-spirv-15 does not read written
  * in forms that it does: nulls of scalars as constants, shuffles of vectors

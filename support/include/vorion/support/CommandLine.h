@@ -14,7 +14,8 @@ namespace vorion {
 
 /// Parses \p Arguments, without the program's name, with \p App, which has the
 /// name of the tool. Returns an exit code after help and after errors, which
-/// are printed in the project's format with a suggestion. The hidden option
+/// are printed in the project's format with a suggestion. Without arguments, a
+/// tool that has subcommands prints its help. The hidden option
 /// --print-definition prints definitionOf(). Empty values (--json "$UNSET") are
 /// rejected, and so are numbers that are NaN, or are 0 or infinite in single
 /// precision. "help" and "help COMMAND" are synonyms of --help if \p App has
@@ -34,6 +35,9 @@ CLI::Validator isOneOf(std::vector<std::string> Names);
 /// place of CLI::Range, whose messages differ between versions of CLI11.
 template <typename Number> CLI::Validator isBetween(Number Low, Number High) {
   CLI::Validator Check = CLI::Range(Low, High);
+  // A bound that nobody comes to says nothing.
+  Check.description(
+      static_cast<double>(High) > 1e12 ? "" : fmt::format("{}..{}", Low, High));
   Check.operation([Low, High](const std::string &Word) {
     Number Value{};
     return CLI::detail::lexical_cast(Word, Value) && Value >= Low &&
@@ -84,6 +88,30 @@ struct OptionValue {
   bool IsWritten = false;         ///< a file, a folder or files
 };
 OptionValue valueOf(const CLI::Option &O);
+
+/// The value of \p O in --help and in definitions: what it is called, and the
+/// range that isBetween() checks, as "1..64"; empty for none.
+struct ValueText {
+  std::string Name, Range;
+};
+ValueText textOf(const CLI::Option &O);
+
+/// Headings of --help: options that are declared while this object lives are
+/// under its heading, but for those that have one already.
+class HelpGroup {
+public:
+  HelpGroup(CLI::App &App, std::string Title);
+  ~HelpGroup();
+  HelpGroup(const HelpGroup &) = delete;
+  HelpGroup &operator=(const HelpGroup &) = delete;
+  /// Those that follow are under \p Title.
+  void next(std::string Title);
+
+private:
+  CLI::App &App;
+  std::string Title;
+  std::size_t First; ///< option, by number
+};
 
 /// The options of \p App that write files, with all their names.
 std::vector<std::string> writingOptions(const CLI::App &App);

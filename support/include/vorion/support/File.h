@@ -32,6 +32,9 @@ Expected<std::vector<std::byte>> readFile(const std::string &Path,
 Expected<std::vector<std::byte>> readRegularFile(const std::string &Path,
                                                  uint64_t Most = UINT64_MAX);
 
+/// XXH3, 64 bits, of a regular file, which need not fit into memory.
+Expected<uint64_t> xxh3OfFile(const std::string &Path);
+
 /// The first \p Size bytes of a regular file, or all if it is shorter.
 Expected<std::vector<std::byte>> readStart(const std::string &Path,
                                            std::size_t Size);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,7 +23,17 @@ constexpr uint64_t fnv1a(std::string_view Bytes) {
 /// The hash as 16 hexadecimal digits.
 std::string fnv1a64(std::string_view Bytes);
 
-/// XXH3, 64 bits: for large data, because it is much faster.
-uint64_t xxh3(std::span<const std::byte> Bytes);
+/// XXH3, 64 bits, of bytes that come one part after the other: for large data,
+/// because it is much faster.
+class Xxh3 {
+public:
+  Xxh3();
+  void add(std::span<const std::byte> Bytes);
+  uint64_t value() const;
+
+private:
+  struct State;
+  std::shared_ptr<State> S;
+};
 
 } // namespace vorion

@@ -66,7 +66,7 @@ inline constexpr uint64_t NoText = ~uint64_t{0};
 
 /// Writes numbers, as 64 bits, and texts, each after its length. A structure
 /// has one function template visit(Archive &, Structure &) that names its
-/// fields, which serves for FieldWriter and FieldReader.
+/// fields, which serves for FieldWriter, FieldReader and FieldReleaser.
 class FieldWriter {
 public:
   std::string Bytes;
@@ -166,6 +166,29 @@ private:
 
   std::string_view Rest;
   bool IsShort = false;
+};
+
+/// Frees the texts and arrays of C that FieldReader allocated.
+class FieldReleaser {
+public:
+  template <typename Number> void number(Number &) {}
+  void text(std::string &) {}
+  void text(char *&Text) {
+    std::free(Text);
+    Text = nullptr;
+  }
+  template <typename Element, typename Number>
+  void array(Element *&Elements, Number &Count) {
+    for (Number I = 0; I != Count; ++I)
+      visit(*this, Elements[I]);
+    std::free(Elements);
+    Elements = nullptr;
+    Count = 0;
+  }
+  template <typename List> void list(List &Elements) {
+    for (auto &Element : Elements)
+      visit(*this, Element);
+  }
 };
 
 template <typename Archive> void visit(Archive &A, std::string &Text) {

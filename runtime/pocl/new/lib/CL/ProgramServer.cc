@@ -11,6 +11,7 @@
 #include "devices/vorion/OutOfMemory.h"
 
 #include "pocl_cache.h"
+#include "pocl_cache_folders.h"
 #include "pocl_checked_file.h"
 #include "pocl_llvm.h"
 #include "pocl_llvm_api.h"
@@ -182,10 +183,28 @@ void build(CompilerRequest &Request, CompilerAnswer &Answer, Program &Built) {
       Names.data(), Request.LinksLibrary);
 }
 
-void link(CompilerRequest &Request, CompilerAnswer &Answer, Program &Linked) {
+bool isSpirv(std::string_view Binary) {
+  const uint32_t Magic = 0x07230203;
+  return Binary.size() > sizeof(Magic) &&
+         !std::memcmp(Binary.data(), &Magic, sizeof(Magic));
+}
+
+void link(CompilerRequest &Request, CompilerAnswer &Answer, Program &Linked,
+          const CompilerSteps &Steps) {
   std::vector<unsigned char *> Binaries;
   std::vector<size_t> Sizes;
   for (std::string &Binary : Request.Binaries) {
+    if (isSpirv(Binary)) {
+      Translation Made = Steps.Translate(Binary);
+      if (!Made.Problem.empty()) {
+        Made.Problem += '\n';
+        pocl_append_to_buildlog(Linked.get(), 0, strdup(Made.Problem.c_str()),
+                                Made.Problem.size());
+        Answer.Status = CL_LINK_PROGRAM_FAILURE;
+        return;
+      }
+      Binary = std::move(Made.Bitcode);
+    }
     Binaries.push_back(reinterpret_cast<unsigned char *>(Binary.data()));
     Sizes.push_back(Binary.size());
   }
@@ -194,7 +213,8 @@ void link(CompilerRequest &Request, CompilerAnswer &Answer, Program &Linked) {
       Sizes.data(), nullptr, Request.LinksLibrary, Request.IsNew);
 }
 
-void makeProgram(CompilerRequest &Request, CompilerAnswer &Answer) {
+void makeProgram(CompilerRequest &Request, CompilerAnswer &Answer,
+                 const CompilerSteps &Steps) {
   if (!LinkContext)
     LinkContext.emplace();
   bool MayKeep = false;
@@ -203,7 +223,7 @@ void makeProgram(CompilerRequest &Request, CompilerAnswer &Answer) {
     if (Request.Task == CompilerTask::Build)
       build(Request, Answer, Made);
     else
-      link(Request, Answer, Made);
+      link(Request, Answer, Made, Steps);
     Made.describe(Answer);
     if (Answer.Status == CL_SUCCESS && Request.LinksLibrary)
       Answer.Status = Made.describeKernels(Answer);
@@ -223,7 +243,7 @@ void describeKernels(CompilerRequest &Request, CompilerAnswer &Answer) {
 }
 
 void makeKernelImage(CompilerRequest &Request, CompilerAnswer &Answer,
-                     const MakeImage &Make) {
+                     const CompilerSteps &Steps) {
   Context Own;
   Program Of(Request, Own);
   if (Request.Binaries.size() != 1 || !Of.read(Request.Binaries[0])) {
@@ -259,9 +279,11 @@ void makeKernelImage(CompilerRequest &Request, CompilerAnswer &Answer,
     Answer.Bitcode = ForMachine.Bitcode;
   if (!Answer.Problem.empty())
     return;
+  ForMachine.Name = "kernel " + Request.Kernel.Name;
   ForMachine.Optimize = Request.IsOptimized;
   ForMachine.Options = Request.MachineOptions;
-  MachineAnswer Made = Make(ForMachine);
+  ForMachine.WantsImage = Request.WantsImage;
+  MachineAnswer Made = Steps.MakeImage(ForMachine);
   Answer.Image = std::move(Made.Image);
   if (Request.WantsObject)
     Answer.Object = std::move(Made.Object);
@@ -269,17 +291,17 @@ void makeKernelImage(CompilerRequest &Request, CompilerAnswer &Answer,
 }
 
 void fill(CompilerRequest &Request, CompilerAnswer &Answer,
-          const MakeImage &Make) {
+          const CompilerSteps &Steps) {
   switch (Request.Task) {
   case CompilerTask::Build:
   case CompilerTask::Link:
-    makeProgram(Request, Answer);
+    makeProgram(Request, Answer, Steps);
     break;
   case CompilerTask::Kernels:
     describeKernels(Request, Answer);
     break;
   case CompilerTask::Image:
-    makeKernelImage(Request, Answer, Make);
+    makeKernelImage(Request, Answer, Steps);
     break;
   case CompilerTask::Triple:
     Answer.Status = Request.Binaries.size() == 1 &&
@@ -288,6 +310,16 @@ void fill(CompilerRequest &Request, CompilerAnswer &Answer,
                                                    Request.Triple.c_str())
                         ? CL_SUCCESS
                         : CL_INVALID_BINARY;
+    break;
+  case CompilerTask::Objects: {
+    MachineAnswer Made = Steps.LinkObjects(Request.Objects);
+    Answer.Image = std::move(Made.Image);
+    Answer.Problem = std::move(Made.Problem);
+    break;
+  }
+  case CompilerTask::Options:
+    if (!Steps.AreOptions(Request.MachineOptions))
+      Answer.Problem = "cannot compile with these options";
     break;
   }
 }
@@ -305,11 +337,11 @@ void prepare(const std::string &Root) {
 } // namespace
 
 std::string answerProgramRequest(
-    std::string_view Text, const std::string &Root, const MakeImage &Make,
+    std::string_view Text, const std::string &Root, const CompilerSteps &Steps,
     const std::function<std::string()> &TakePrinted, bool &MayStay) {
   CompilerRequest Request;
   MayStay = false;
-  if (!isReadInto(Request, Text))
+  if (!isReadInto(Request, Text)) // it is of another version
     return {};
   prepare(Root);
   CompilerAnswer Answer;
@@ -324,13 +356,17 @@ std::string answerProgramRequest(
   pocl_forget_file_problem();
   // A folder that is gone is nobody's include folder.
   [[maybe_unused]] const int Failed = chdir(Request.Folder.c_str());
+  if (!Request.IsKept) // as of all requests of its program
+    pocl_cache_keep_no_programs();
   if (pocl_cache_init_topdir())
     Answer.Status = CL_BUILD_PROGRAM_FAILURE;
   else
-    fill(Request, Answer, Make);
+    fill(Request, Answer, Steps);
   if (const char *Problem = pocl_file_problem())
     Answer.FileProblem = Problem;
   Answer.Printed = TakePrinted();
+  FieldReleaser Releaser;
+  visit(Releaser, Request);
   // Options of LLVM are those of a process.
   MayStay = Request.MachineOptions.empty() && Answer.Status == CL_SUCCESS &&
             Answer.Problem.empty();

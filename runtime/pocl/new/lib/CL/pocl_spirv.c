@@ -254,15 +254,87 @@ static void specialize_result(void *il, size_t length, uint32_t result,
   }
 }
 
-void pocl_spirv_specialize(void *il, size_t length, uint32_t id,
-                           uint64_t value) {
-  size_t decoration = HEADER_WORDS;
-  for (; find(il, length, OP_DECORATE, &decoration);
-       decoration += size_at(il, decoration)) {
-    if (size_at(il, decoration) < 4 ||
-        word_at(il, decoration + 2) != DECORATION_SPEC_ID ||
-        word_at(il, decoration + 3) != id)
+/* The next decoration at or after the word *at that makes a constant one of
+ * specialization, or 0. */
+static int find_spec_id(const void *il, size_t length, size_t *at) {
+  for (; find(il, length, OP_DECORATE, at); *at += size_at(il, *at))
+    if (size_at(il, *at) >= 4 && word_at(il, *at + 2) == DECORATION_SPEC_ID)
+      return 1;
+  return 0;
+}
+
+/* Gives the specialization constant with this SpecId its value, of as many bits
+ * as it has. The translator has an option for this, but refuses values of 64
+ * bits that have 17 digits. */
+static void specialize(void *il, size_t length, uint32_t id, uint64_t value) {
+  for (size_t at = HEADER_WORDS; find_spec_id(il, length, &at);
+       at += size_at(il, at))
+    if (word_at(il, at + 3) == id)
+      specialize_result(il, length, word_at(il, at + 1), value);
+}
+
+/* The bytes of numbers of this type; 0 of another. */
+static cl_uint bytes_of_type(const void *il, size_t length, uint32_t type) {
+  for (size_t at = HEADER_WORDS; at < length / sizeof(uint32_t);
+       at += size_at(il, at)) {
+    const uint32_t kind = kind_at(il, at), size = size_at(il, at);
+    if (kind < OP_TYPE_BOOL || kind > OP_TYPE_FLOAT || size < 2 ||
+        word_at(il, at + 1) != type)
       continue;
-    specialize_result(il, length, word_at(il, decoration + 1), value);
+    return kind == OP_TYPE_BOOL ? 1 : size > 2 ? word_at(il, at + 2) / 8 : 0;
   }
+  return 0;
+}
+
+/* The bytes of the specialization constant whose result has this number; 0 of
+ * another result. */
+static cl_uint bytes_of_constant(const void *il, size_t length,
+                                 uint32_t result) {
+  for (size_t at = HEADER_WORDS; at < length / sizeof(uint32_t);
+       at += size_at(il, at)) {
+    const uint32_t kind = kind_at(il, at);
+    if (kind >= OP_SPEC_CONSTANT_TRUE && kind <= OP_SPEC_CONSTANT &&
+        size_at(il, at) >= 3 && word_at(il, at + 2) == result)
+      return bytes_of_type(il, length, word_at(il, at + 1));
+  }
+  return 0;
+}
+
+int pocl_spirv_find_constants(cl_program program) {
+  const void *il = program->program_il;
+  const size_t length = program->program_il_size;
+  size_t most = 0;
+  for (size_t at = HEADER_WORDS; find_spec_id(il, length, &at);
+       at += size_at(il, at))
+    ++most;
+  if (most == 0)
+    return 0;
+  program->spec_const_ids = calloc(most, sizeof(*program->spec_const_ids));
+  program->spec_const_sizes = calloc(most, sizeof(*program->spec_const_sizes));
+  program->spec_const_values =
+      calloc(most, sizeof(*program->spec_const_values));
+  program->spec_const_is_set =
+      calloc(most, sizeof(*program->spec_const_is_set));
+  if (!program->spec_const_ids || !program->spec_const_sizes ||
+      !program->spec_const_values || !program->spec_const_is_set)
+    return -1;
+  for (size_t at = HEADER_WORDS; find_spec_id(il, length, &at);
+       at += size_at(il, at)) {
+    const cl_uint bytes = bytes_of_constant(il, length, word_at(il, at + 1));
+    if (bytes == 0 || bytes > sizeof(*program->spec_const_values))
+      continue;
+    program->spec_const_ids[program->num_spec_consts] = word_at(il, at + 3);
+    program->spec_const_sizes[program->num_spec_consts++] = bytes;
+  }
+  return 0;
+}
+
+void *pocl_spirv_specialized(cl_program program, size_t *length) {
+  *length = program->program_il_size;
+  void *il = pocl_spirv_common_forms(program->program_il, length);
+  for (size_t i = 0; il && i < program->num_spec_consts; ++i)
+    if (program->spec_const_is_set[i])
+      specialize(il, *length, program->spec_const_ids[i],
+                 program->spec_const_values[i]);
+  return il;
 }

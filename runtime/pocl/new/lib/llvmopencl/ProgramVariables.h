@@ -2,7 +2,7 @@
 //
 // All kernels of a program share its variables, but each is linked to an image
 // of its own. So the variables lie in memory that the driver allocates, and the
-// launch block says where (docs/abi.md, "Variables of program scope").
+// launch block says where (docs/abi.md, "Launch block and kernel table").
 //
 //===----------------------------------------------------------------------===//
 

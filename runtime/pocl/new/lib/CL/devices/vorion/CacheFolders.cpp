@@ -86,11 +86,6 @@ void pocl_tell_of_private_cache() {
     });
 }
 
-int pocl_take_kernel_folder(const char *Name, char *Path) {
-  const std::string Why = makeOwnFolder(Name);
-  return Why.empty() ? give(Name, Path) : fail(Why);
-}
-
 int pocl_copy_from_system_cache(const char *Folder, const char *Place,
                                 const char *Path) {
   const fs::path File = systemKernelCacheFolder() + "/" + Folder + Place;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "KernelModule.h"
+#include "MachineCode.h"
 #include "ProgramFields.h"
 
 #include <string>
@@ -12,10 +13,12 @@ namespace vorion {
 
 enum class CompilerTask {
   Build,   ///< compiles Source: as pocl_llvm_build_program()
-  Link,    ///< links Binaries: as pocl_llvm_link_program()
+  Link,    ///< links Binaries: as pocl_llvm_link_program(), or SPIR-V
   Kernels, ///< describes the kernels of the one binary
   Image,   ///< makes an image of a kernel of the one binary
   Triple,  ///< whether the one binary is of a target triple
+  Objects, ///< links Objects, those of kernels, to an image
+  Options, ///< checks MachineOptions: their errors are printed
 };
 
 struct NamedText {
@@ -41,9 +44,11 @@ struct CompilerRequest {
   std::string Source;
   std::vector<NamedText> Headers;
   std::vector<std::string> Binaries;
+  std::vector<NamedObject> Objects;
   std::string Triple;        ///< a part of it
   bool LinksLibrary = false; ///< of built-in functions
   bool IsNew = false;        ///< whether it gets a hash
+  bool IsKept = true;        ///< in the kernel cache
 
   // The kernel.
   KernelDescription Kernel;
@@ -51,7 +56,7 @@ struct CompilerRequest {
   bool HasOffset = true;
   bool IsRangePart = false;
   bool IsOptimized = true;
-  /// Whether the object and the bitcode are wanted beside the image.
+  bool WantsImage = true; ///< or the object alone
   bool WantsObject = false, WantsBitcode = false;
   std::vector<std::string> MachineOptions; ///< of vorion-clang
 };
@@ -68,14 +73,17 @@ template <typename Archive> void visit(Archive &A, CompilerRequest &Request) {
   A.text(Request.Source);
   A.list(Request.Headers);
   A.list(Request.Binaries);
+  A.list(Request.Objects);
   A.text(Request.Triple);
   A.number(Request.LinksLibrary);
   A.number(Request.IsNew);
+  A.number(Request.IsKept);
   visit(A, Request.Kernel);
   A.number(Request.IsSpecialized);
   A.number(Request.HasOffset);
   A.number(Request.IsRangePart);
   A.number(Request.IsOptimized);
+  A.number(Request.WantsImage);
   A.number(Request.WantsObject);
   A.number(Request.WantsBitcode);
   A.list(Request.MachineOptions);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <spawn.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
@@ -49,6 +50,13 @@ public:
   bool send(const std::string &Text) {
     return isThere() && sendText(Number, Text);
   }
+  /// How long send() and receive() wait for the other side, in seconds; 0 is
+  /// for ever. Then they fail with EAGAIN.
+  void limit(unsigned Seconds) {
+    const timeval Limit{static_cast<time_t>(Seconds), 0};
+    for (const int Way : {SO_RCVTIMEO, SO_SNDTIMEO})
+      setsockopt(Number, SOL_SOCKET, Way, &Limit, sizeof(Limit));
+  }
 
 private:
   bool isThere() const { return File != 0 && fileOf(Number) == File; }
@@ -61,12 +69,21 @@ private:
 /// the latest.
 struct Server {
   Socket Calls, End;
+  unsigned Seconds; ///< that it may be silent; 0: for ever
+  bool IsSilent = false;
 
-  /// Nothing if it ended.
+  Server(Socket Calls, Socket End, unsigned Seconds)
+      : Calls(std::move(Calls)), End(std::move(End)), Seconds(Seconds) {
+    this->Calls.limit(Seconds);
+    this->End.limit(Seconds);
+  }
+
+  /// Nothing if it ended, or was silent.
   std::optional<std::string> call(const std::string &Request) {
-    if (!Calls.send(Request))
-      return std::nullopt;
-    return Calls.receive();
+    errno = 0;
+    auto Response = Calls.send(Request) ? Calls.receive() : std::nullopt;
+    IsSilent = !Response && errno == EAGAIN;
+    return Response;
   }
 
   CompilerFailure failure() {
@@ -74,6 +91,11 @@ struct Server {
     const auto Because = [&](const std::string &What) {
       return CompilerProblem + What + Wanted;
     };
+    if (IsSilent)
+      return {Because("gave no answer in " + std::to_string(Seconds) +
+                      " s (VORION_COMPILE_SECONDS)"),
+              {},
+              true};
     ServerEnd Ended;
     const auto Text = End.receive();
     if (!Text || !isReadInto(Ended, *Text))
@@ -147,7 +169,8 @@ std::variant<Server, CompilerFailure> start(const CompilerProgram &Compiler) {
                                            End->Theirs.number())
                                    : errno;
   if (Problem == 0)
-    return Server{std::move(Calls->Ours), std::move(End->Ours)};
+    return Server(std::move(Calls->Ours), std::move(End->Ours),
+                  Compiler.Seconds);
   return CompilerFailure{CompilerProblem + Compiler.File +
                              " cannot be started: " + strerror(Problem),
                          {},
@@ -210,6 +233,8 @@ askCompiler(const CompilerProgram &Compiler, const std::string &Request) {
       idle().keep(Compiler.Environment, std::move(*Used));
       return *Response;
     }
+    if (Used->IsSilent)
+      return Used->failure();
   }
   CompilerFailure Why;
   for (int Try = 0; Try < 2; ++Try) {
@@ -223,6 +248,8 @@ askCompiler(const CompilerProgram &Compiler, const std::string &Request) {
       return *Response;
     }
     Why = Made.failure();
+    if (Made.IsSilent)
+      break;
   }
   return Why;
 }

@@ -16,8 +16,8 @@ struct CompilerFailure {
   std::string Text;
   /// What it printed before, such as a fatal error of LLVM.
   std::string Printed;
-  /// Whether it ran out of memory, or could not be started: the program may be
-  /// good.
+  /// Whether it ran out of memory or time, or could not be started: the program
+  /// may be good.
   bool LackedResources = false;
 
   /// Text and what was printed, or the beginning of it.
@@ -33,11 +33,13 @@ struct CompilerProgram {
   std::vector<std::string> Environment; ///< NAME=VALUE
   /// Whether it may serve another request.
   bool Stays = true;
+  /// How long it may give no answer before it is ended; 0 is for ever.
+  unsigned Seconds = 0;
 };
 
 /// The response of \p Compiler to \p Request: of a process that is idle, or of
 /// a new one. A new one gets the request once more if the first ends without a
-/// response.
+/// response by itself.
 std::variant<std::string, CompilerFailure>
 askCompiler(const CompilerProgram &Compiler, const std::string &Request);
 

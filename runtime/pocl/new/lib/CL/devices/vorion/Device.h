@@ -1,6 +1,7 @@
 /// One device of the platform.
 #pragma once
 
+#include "CommandOrder.h"
 #include "KernelCache.h"
 #include "Opening.h"
 #include "Worker.h"
@@ -17,6 +18,7 @@ struct VorionDevice {
   vx_device_info Info{};
   std::string BuildHash;
   KernelCache Kernels;
+  HostOrder Host;
   Worker Thread;
 };
 

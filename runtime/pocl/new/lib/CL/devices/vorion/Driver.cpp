@@ -6,8 +6,10 @@
 #include "KnownPrograms.h"
 #include "MemoryOperations.h"
 #include "Messages.h"
+#include "Opening.h"
 #include "ProgramCompiler.h"
 #include "ProgramKernels.h"
+#include "Queue.h"
 #include "vorion/support/Environment.h"
 
 extern "C" {
@@ -193,6 +195,7 @@ void submitReady(_cl_command_node *Node) {
 void submit(_cl_command_node *Node, cl_command_queue) {
   Worker::finishBeforeExit();
   Node->ready = 1;
+  hostSends(Node->sync.event.event);
   submitReady(Node);
   POCL_UNLOCK_OBJ(Node->sync.event.event);
 }
@@ -207,25 +210,30 @@ void notify(cl_device_id, cl_event Event, cl_event Finished) {
 
 void flush(cl_device_id, cl_command_queue) {}
 
-void join(cl_device_id, cl_command_queue Queue) {
+/// The clock goes on with the host: what follows is sent behind all that.
+void join(cl_device_id Device, cl_command_queue Queue) {
   POCL_LOCK_OBJ(Queue);
   while (Queue->command_count > 0)
-    POCL_WAIT_COND(*static_cast<pthread_cond_t *>(Queue->data),
-                   Queue->pocl_lock);
+    POCL_WAIT_COND(queueData(Queue).Finished, Queue->pocl_lock);
   POCL_UNLOCK_OBJ(Queue);
+  if (!Device->data || deviceOf(Device).Info.dma_engines == 0)
+    return;
+  VorionDevice &Own = deviceOf(Device);
+  Own.Thread.finish();
+  vx_command_settle(Own.Opened.get());
 }
 
 void notifyQueueFinished(cl_command_queue Queue) {
-  pthread_cond_broadcast(static_cast<pthread_cond_t *>(Queue->data));
+  pthread_cond_broadcast(&queueData(Queue).Finished);
 }
 
 int initQueue(cl_device_id, cl_command_queue Queue) {
-  Queue->data = new pthread_cond_t(PTHREAD_COND_INITIALIZER);
+  Queue->data = new QueueData;
   return CL_SUCCESS;
 }
 
 int freeQueue(cl_device_id, cl_command_queue Queue) {
-  delete static_cast<pthread_cond_t *>(Queue->data);
+  delete &queueData(Queue);
   Queue->data = nullptr;
   return CL_SUCCESS;
 }
@@ -249,6 +257,11 @@ void updateEvent(cl_device_id, cl_event Event) {
   default: {
     const EventData *Data = eventData(Event);
     const double Took = Data ? Data->DeviceSeconds : 0;
+    // A program that turned the clock on knows.
+    if (Took > 0 && Event->queue &&
+        (Event->queue->properties & CL_QUEUE_PROFILING_ENABLE) != 0 &&
+        !hasOptionsOfProgram())
+      noteModelledTimes();
     Event->time_end =
         Took > 0 ? Event->time_start + static_cast<cl_ulong>(Took * 1e9) : Now;
   }
@@ -259,6 +272,7 @@ void waitEvent(cl_device_id, cl_event Event) {
   POCL_LOCK_OBJ(Event);
   while (Event->status > CL_COMPLETE)
     POCL_WAIT_COND(eventData(Event)->Finished, Event->pocl_lock);
+  hostWaited(Event);
   POCL_UNLOCK_OBJ(Event);
 }
 
@@ -288,6 +302,10 @@ cl_int deviceInfo(cl_device_id Device, cl_device_info Name, size_t Size,
   case CL_DEVICE_WARPS_PER_CORE_VORION: {
     const cl_uint Warps = deviceOf(Device).Info.warps;
     return answer(Warps, Size, Value, SizeRet);
+  }
+  case CL_DEVICE_DMA_ENGINES_VORION: {
+    const cl_uint Engines = deviceOf(Device).Info.dma_engines;
+    return answer(Engines, Size, Value, SizeRet);
   }
   case CL_DEVICE_INTEGER_DOT_PRODUCT_CAPABILITIES_KHR: {
     const cl_device_integer_dot_product_capabilities_khr All =

@@ -1,6 +1,7 @@
 /// What the driver keeps for an OpenCL event.
 #pragma once
 
+#include "CommandOrder.h"
 #include "vorion.h"
 
 #include <vorion/runtime.h>
@@ -16,6 +17,7 @@ struct EventData {
   std::optional<vx_counters> Counters; ///< of a kernel that ran to its end
   std::string TimeReport;              ///< likewise
   double DeviceSeconds = 0;            ///< likewise; 0 without the clock
+  CommandWaits Waits;
 };
 
 /// Null before the event is queued.

@@ -83,9 +83,12 @@ std::string KernelCache::imagePath(_cl_command_node *Command, cl_kernel Kernel,
 }
 
 KernelCache::Problem KernelCache::problem(_cl_command_node *Command,
-                                          cl_kernel Kernel,
-                                          const std::string &Text,
+                                          cl_kernel Kernel, std::string Text,
                                           Problem::Cause Of) {
+  if (pocl_file_problem()) {
+    Text = pocl_file_problem();
+    Of = Problem::Cause::Files;
+  }
   Problem P{Text, Of};
   if (Of != Problem::Cause::Files)
     P.Text = std::string("kernel ") + Kernel->name + ": " + Text;
@@ -97,16 +100,13 @@ KernelCache::Problem KernelCache::problem(_cl_command_node *Command,
   return P;
 }
 
-KernelCache::Problem KernelCache::make(_cl_command_node *Command,
-                                       cl_kernel Kernel, bool Specialize,
-                                       const std::string &ImagePath) {
-  const std::string Base = fs::path(ImagePath).replace_extension().string();
+KernelCache::Problem KernelCache::ask(_cl_command_node *Command,
+                                      cl_kernel Kernel, bool Specialize,
+                                      CompilerRequest &Request,
+                                      CompilerAnswer &Answer) {
   const char *Options = Kernel->program->compiler_options;
   const _cl_command_run &Run = Command->command.run;
   constexpr size_t AnySize[3] = {0, 0, 0};
-
-  CompilerRequest Request = requestFor(
-      Kernel->program, Command->program_device_i, CompilerTask::Image);
   Request.Kernel = describe(Kernel, Specialize ? Run.pc.local_size : AnySize,
                             Command->device->max_work_group_size);
   Request.IsSpecialized = Specialize;
@@ -115,34 +115,43 @@ KernelCache::Problem KernelCache::make(_cl_command_node *Command,
                   [](size_t Offset) { return Offset != 0; });
   Request.IsRangePart = Run.is_range_part;
   Request.IsOptimized = !Options || !strstr(Options, "-cl-opt-disable");
-  Request.WantsObject = pocl_is_option_set("VORION_KERNEL_FOLDER");
-  Request.WantsBitcode =
-      pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0);
 
-  pocl_forget_file_problem();
-  CompilerAnswer Answer;
   std::string Text;
   Problem::Cause Of = Problem::Cause::Kernel;
-  if (pocl_mkdir_p(fs::path(Base).parent_path().c_str())) {
-    Text = "cannot make the folder of " + Base;
-  } else if (const auto Why = ToolSet.ask(Request, Answer)) {
+  if (const auto Why = ToolSet.ask(Request, Answer)) {
     Text = Why->message();
     if (Why->LackedResources)
       Of = Problem::Cause::Resources;
   } else if (!Answer.Problem.empty()) {
     Text = Answer.Problem + "\n" + Answer.Printed;
   }
-  if (Text.empty() && Request.WantsBitcode)
+  return Text.empty() ? Problem() : problem(Command, Kernel, Text, Of);
+}
+
+KernelCache::Problem KernelCache::make(_cl_command_node *Command,
+                                       cl_kernel Kernel, bool Specialize,
+                                       const std::string &ImagePath) {
+  const std::string Base = fs::path(ImagePath).replace_extension().string();
+  CompilerRequest Request = requestFor(
+      Kernel->program, Command->program_device_i, CompilerTask::Image);
+  Request.WantsBitcode =
+      pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0);
+
+  pocl_forget_file_problem();
+  if (pocl_mkdir_p(fs::path(Base).parent_path().c_str()))
+    return problem(Command, Kernel, "cannot make the folder of " + Base,
+                   Problem::Cause::Kernel);
+  CompilerAnswer Answer;
+  if (Problem P = ask(Command, Kernel, Specialize, Request, Answer);
+      !P.Text.empty())
+    return P;
+  std::string Text;
+  if (Request.WantsBitcode)
     Text = leave(Base + ".bc", Answer.Bitcode);
-  if (Text.empty() && Request.WantsObject)
-    Text = leave(Base + ".o", Answer.Object);
   if (Text.empty())
     Text = keep(ImagePath, Answer.Image);
-  if (Text.empty())
-    return {};
-  if (pocl_file_problem())
-    return problem(Command, Kernel, pocl_file_problem(), Problem::Cause::Files);
-  return problem(Command, Kernel, Text, Of);
+  return Text.empty() ? Problem()
+                      : problem(Command, Kernel, Text, Problem::Cause::Kernel);
 }
 
 KernelCache::Problem KernelCache::compile(_cl_command_node *Command,
@@ -163,6 +172,7 @@ const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P,
   P = compile(Command, Kernel, Specialize);
   if (!P.Text.empty())
     return nullptr;
+  pocl_forget_file_problem();
   LoadedKernel New;
   vx_image *Image = nullptr;
   const vx_status Status = vx_image_load_file(Device, Path.c_str(), &Image);

@@ -55,6 +55,11 @@ public:
   /// wrong is also added to the build log.
   Problem compile(_cl_command_node *Command, cl_kernel Kernel, bool Specialize);
 
+  /// Asks the compiler for the command's kernel in the same way. \p Request is
+  /// one for an image of its program, and says what is wanted of it.
+  Problem ask(_cl_command_node *Command, cl_kernel Kernel, bool Specialize,
+              CompilerRequest &Request, CompilerAnswer &Answer);
+
   /// The command's kernel, compiled for its group size, or for any if not
   /// \p Specialize, and loaded; null and \p P on failure. Valid until the next
   /// call of forget().
@@ -80,9 +85,10 @@ public:
 private:
   static std::string imagePath(_cl_command_node *Command, cl_kernel Kernel,
                                bool Specialize);
-  /// What is wrong about the command's kernel, in the build log too.
+  /// What is wrong about the command's kernel, in the build log too: this
+  /// thread's pocl_file_problem(), if there is one.
   static Problem problem(_cl_command_node *Command, cl_kernel Kernel,
-                         const std::string &Text, Problem::Cause Of);
+                         std::string Text, Problem::Cause Of);
   Problem make(_cl_command_node *Command, cl_kernel Kernel, bool Specialize,
                const std::string &ImagePath);
 

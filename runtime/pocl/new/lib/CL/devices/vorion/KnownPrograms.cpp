@@ -4,6 +4,7 @@
 
 extern "C" {
 #include "pocl_cache.h"
+#include "pocl_cache_folders.h"
 #include "pocl_checked_file.h"
 #include "pocl_file_util.h"
 #include "pocl_runtime_config.h"
@@ -138,9 +139,8 @@ bool areUnchanged(const std::string &Files) {
 /// Where the kernel cache has what is known of the program's text. Empty if it
 /// cannot be there. The program's hash becomes that of the text.
 std::string placeOf(cl_program Program, cl_uint Index, const Tools &ToolSet) {
-  // A compiler that wants to find its kernels begins with an empty cache.
   if (!pocl_get_bool_option("POCL_KERNEL_CACHE", 1) ||
-      pocl_get_string_option("VORION_KERNEL_FOLDER", nullptr) ||
+      !pocl_cache_keeps_programs() ||
       pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0) ||
       !namesItsProgram(Program->source, Program->compiler_options, ToolSet))
     return {};

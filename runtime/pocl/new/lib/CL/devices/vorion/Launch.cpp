@@ -29,10 +29,12 @@ struct Failing {
     tellFailure(Command.sync.event.event->context, Status, Text);
     return Status;
   }
-  /// \p Text is about the command's kernel.
-  cl_int kernel(cl_int Status, const char *Text) const {
-    return with(Status, std::string("kernel ") +
-                            Command.command.run.kernel->name + ": " + Text);
+  /// \p Text is about the command's kernel, which it may begin with.
+  cl_int kernel(cl_int Status, const std::string &Text) const {
+    const std::string Name =
+        std::string("kernel ") + Command.command.run.kernel->name;
+    return with(Status,
+                Text.starts_with(Name + ' ') ? Text : Name + ": " + Text);
   }
 };
 

@@ -75,10 +75,32 @@ void tellRead(void *Data, const pocl_mem_identifier *Id, size_t Offset,
   tell(vx_mem_read, Data, Id, Offset, Size);
 }
 
+// The clock is told of a rectangle as of so many bytes.
+
+uint32_t addressOf(const pocl_mem_identifier *Id, size_t Offset) {
+  return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr) +
+                               Offset);
+}
+
+void timeCopy(void *Data, vx_copy_kind Kind, const pocl_mem_identifier *Id,
+              size_t Offset, size_t Size, uint32_t From = 0) {
+  vx_command_copy(static_cast<VorionDevice *>(Data)->Opened.get(), Kind,
+                  addressOf(Id, Offset), From, Size);
+}
+
+size_t bytesOf(const size_t *Region) {
+  return Region[0] * Region[1] * Region[2];
+}
+
+size_t beginOf(const size_t *Origin, size_t RowPitch, size_t SlicePitch) {
+  return Origin[0] + Origin[1] * RowPitch + Origin[2] * SlicePitch;
+}
+
 void read(void *Data, void *To, pocl_mem_identifier *From, cl_mem Buffer,
           size_t Offset, size_t Size) {
   pocl_driver_read(Data, To, From, Buffer, Offset, Size);
   tellRead(Data, From, Offset, Size);
+  timeCopy(Data, VX_COPY_FROM_DEVICE, From, Offset, Size);
 }
 
 void readRect(void *Data, void *To, pocl_mem_identifier *From, cl_mem Buffer,
@@ -90,12 +112,16 @@ void readRect(void *Data, void *To, pocl_mem_identifier *From, cl_mem Buffer,
                         Region, BufferRowPitch, BufferSlicePitch, HostRowPitch,
                         HostSlicePitch);
   tellRead(Data, From, beginInBuffer(*Buffer), Buffer->size);
+  timeCopy(Data, VX_COPY_FROM_DEVICE, From,
+           beginOf(BufferOrigin, BufferRowPitch, BufferSlicePitch),
+           bytesOf(Region));
 }
 
 void write(void *Data, const void *From, pocl_mem_identifier *To, cl_mem Buffer,
            size_t Offset, size_t Size) {
   pocl_driver_write(Data, From, To, Buffer, Offset, Size);
   tellWritten(Data, To, Offset, Size);
+  timeCopy(Data, VX_COPY_TO_DEVICE, To, Offset, Size);
 }
 
 void writeRect(void *Data, const void *From, pocl_mem_identifier *To,
@@ -107,6 +133,9 @@ void writeRect(void *Data, const void *From, pocl_mem_identifier *To,
                          Region, BufferRowPitch, BufferSlicePitch, HostRowPitch,
                          HostSlicePitch);
   tellWritten(Data, To, beginInBuffer(*Buffer), Buffer->size);
+  timeCopy(Data, VX_COPY_TO_DEVICE, To,
+           beginOf(BufferOrigin, BufferRowPitch, BufferSlicePitch),
+           bytesOf(Region));
 }
 
 void copy(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
@@ -116,6 +145,8 @@ void copy(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
                    Size);
   tellRead(Data, From, FromOffset, Size);
   tellWritten(Data, To, ToOffset, Size);
+  timeCopy(Data, VX_COPY_ON_DEVICE, To, ToOffset, Size,
+           addressOf(From, FromOffset));
 }
 
 void copyWithSize(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
@@ -126,6 +157,8 @@ void copyWithSize(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
                              SizeBuffer, ToOffset, FromOffset, Size);
   tellRead(Data, From, FromOffset, Size);
   tellWritten(Data, To, ToOffset, Size);
+  timeCopy(Data, VX_COPY_ON_DEVICE, To, ToOffset, Size,
+           addressOf(From, FromOffset));
 }
 
 void copyRect(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
@@ -138,12 +171,16 @@ void copyRect(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
                         FromRowPitch, FromSlicePitch);
   tellRead(Data, From, beginInBuffer(*FromBuffer), FromBuffer->size);
   tellWritten(Data, To, beginInBuffer(*ToBuffer), ToBuffer->size);
+  timeCopy(Data, VX_COPY_ON_DEVICE, To,
+           beginOf(ToOrigin, ToRowPitch, ToSlicePitch), bytesOf(Region),
+           addressOf(From, beginOf(FromOrigin, FromRowPitch, FromSlicePitch)));
 }
 
 void fill(void *Data, pocl_mem_identifier *To, cl_mem Buffer, size_t Size,
           size_t Offset, const void *Pattern, size_t PatternSize) {
   pocl_driver_memfill(Data, To, Buffer, Size, Offset, Pattern, PatternSize);
   tellWritten(Data, To, Offset, Size);
+  timeCopy(Data, VX_COPY_FILL, To, Offset, Size);
 }
 
 /// The machine's memory is the host's, too. Only what the program wants to have
@@ -165,16 +202,20 @@ cl_int freeMappingPointer(void *, pocl_mem_identifier *, cl_mem,
 cl_int map(void *Data, pocl_mem_identifier *From, cl_mem Buffer,
            mem_mapping_t *Map) {
   const cl_int Status = pocl_driver_map_mem(Data, From, Buffer, Map);
-  if (Map->map_flags & CL_MAP_READ)
+  if (Map->map_flags & CL_MAP_READ) {
     tellRead(Data, From, Map->offset, Map->size);
+    timeCopy(Data, VX_COPY_FROM_DEVICE, From, Map->offset, Map->size);
+  }
   return Status;
 }
 
 cl_int unmap(void *Data, pocl_mem_identifier *To, cl_mem Buffer,
              mem_mapping_t *Map) {
   const cl_int Status = pocl_driver_unmap_mem(Data, To, Buffer, Map);
-  if (!(Map->map_flags & CL_MAP_READ) || (Map->map_flags & CL_MAP_WRITE))
+  if (!(Map->map_flags & CL_MAP_READ) || (Map->map_flags & CL_MAP_WRITE)) {
     tellWritten(Data, To, Map->offset, Map->size);
+    timeCopy(Data, VX_COPY_TO_DEVICE, To, Map->offset, Map->size);
+  }
   return Status;
 }
 
@@ -267,6 +308,10 @@ cl_int fillImage(void *Data, cl_mem Image, pocl_mem_identifier *Id,
                    X * TexelBytes,
                Texel, TexelBytes);
   tellWritten(Data, Id, 0, Image->size);
+  timeCopy(Data, VX_COPY_FILL, Id,
+           beginOf(originInBytes(*Image, Origin).data(), rowPitch(*Image),
+                   Image->image_slice_pitch),
+           bytesOf(inBytes(*Image, Region).data()));
   return CL_SUCCESS;
 }
 
@@ -283,6 +328,7 @@ cl_int mapImage(void *Data, pocl_mem_identifier *From, cl_mem Image,
     return readImage(Data, Image, From, Map->host_ptr, nullptr, Map->origin,
                      Map->region, Map->row_pitch, Map->slice_pitch, 0);
   tellRead(Data, From, 0, Image->size);
+  timeCopy(Data, VX_COPY_FROM_DEVICE, From, 0, Image->size);
   return CL_SUCCESS;
 }
 
@@ -294,6 +340,7 @@ cl_int unmapImage(void *Data, pocl_mem_identifier *To, cl_mem Image,
     return writeImage(Data, Image, To, Map->host_ptr, nullptr, Map->origin,
                       Map->region, Map->row_pitch, Map->slice_pitch, 0);
   tellWritten(Data, To, 0, Image->size);
+  timeCopy(Data, VX_COPY_TO_DEVICE, To, 0, Image->size);
   return CL_SUCCESS;
 }
 

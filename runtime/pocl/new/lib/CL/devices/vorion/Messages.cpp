@@ -1,6 +1,7 @@
 #include "Messages.h"
 
 #include <cstdio>
+#include <mutex>
 
 namespace vorion {
 
@@ -10,6 +11,15 @@ void tellFailure(cl_context Context, cl_int Status, const std::string &Text) {
                     Context->notify_data);
   else
     fprintf(stderr, "vorion: error: %s\n", Text.c_str());
+}
+
+void noteModelledTimes() {
+  static std::once_flag Once;
+  std::call_once(Once, [] {
+    fprintf(stderr, "vorion: note: profiling times of kernels are modelled: "
+                    "those of the machine, not of this computer "
+                    "(VORION_TIME)\n");
+  });
 }
 
 } // namespace vorion

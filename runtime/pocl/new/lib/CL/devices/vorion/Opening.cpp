@@ -161,6 +161,11 @@ Machine openMachine(const char *Config, cl_int &Status) {
   return Machine(Opened);
 }
 
+bool hasOptionsOfProgram() {
+  const std::lock_guard Guard(Lock);
+  return !Given.empty();
+}
+
 bool isOptionSet(const char *Name) {
   const std::lock_guard Guard(Lock);
   return std::any_of(Given.begin(), Given.end(),

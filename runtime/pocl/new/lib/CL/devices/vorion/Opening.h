@@ -28,6 +28,9 @@ Machine openMachine(const char *Config, cl_int &Status);
 /// Whether the devices have machines, all or none, for PoCL to look at.
 cl_bool *availability();
 
+/// Whether the program gave the devices options, rather than the environment.
+bool hasOptionsOfProgram();
+
 /// Whether the option \p Name, or else the environment's variable, is set.
 bool isOptionSet(const char *Name);
 

@@ -129,7 +129,7 @@ int pocl_llvm_build_program(cl_program Program, unsigned Index,
                             cl_uint NumHeaders, const cl_program *Headers,
                             const char **Names, int Link) {
   // The compiler takes such a folder for one that stays.
-  if (!pocl_is_option_set("VORION_KERNEL_FOLDER"))
+  if (pocl_cache_keeps_programs())
     pocl_tell_of_private_cache();
   CompilerRequest Request = requestFor(Program, Index, CompilerTask::Build);
   Request.Binaries.clear();

@@ -2,6 +2,7 @@
 
 extern "C" {
 #include "pocl_cache.h"
+#include "pocl_cache_folders.h"
 #include "pocl_checked_file.h"
 #include "pocl_file_util.h"
 #include "pocl_util.h"
@@ -54,8 +55,8 @@ bool takeKernels(cl_program Program, cl_uint Index) {
 }
 
 void keepKernels(cl_program Program, cl_uint Index, std::string_view Text) {
-  pocl_write_checked_file(pathOf(Program, Index).c_str(), Text.data(),
-                          Text.size());
+  pocl_cache_write_program(pathOf(Program, Index).c_str(), Text.data(),
+                           Text.size());
 }
 
 } // namespace vorion

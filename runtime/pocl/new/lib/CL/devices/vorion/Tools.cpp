@@ -6,11 +6,14 @@
 #include "vorion/support/Hash.h"
 
 extern "C" {
+#include "pocl_cache_folders.h"
 #include "pocl_checked_file.h"
 }
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <dlfcn.h>
 #include <filesystem>
 #include <iomanip>
@@ -57,11 +60,27 @@ bool mayStay() {
   return !remarkOptions() && !(Wanted && std::string_view(Wanted) == "0");
 }
 
+/// How long the compiler may take for a request, in seconds; 0 is for ever. A
+/// large kernel takes seconds. Nothing if the variable has no such number.
+std::optional<unsigned> compileSeconds() {
+  constexpr unsigned Default = 600;
+  const char *Given = environmentVariable("VORION_COMPILE_SECONDS");
+  if (!Given)
+    return Default;
+  unsigned Seconds = 0;
+  const char *End = Given + std::strlen(Given);
+  const auto [Rest, Failed] = std::from_chars(Given, End, Seconds);
+  if (Failed != std::errc() || Rest != End)
+    return std::nullopt;
+  return Seconds;
+}
+
 /// Where of bitcode nothing is known but what it says itself, clang prints
 /// "remark: k.cl:3:5: text"; everywhere else "k.cl:3:5: remark: text". A kernel
 /// with barriers has many loops over its work-items at one place: what is said
 /// of a place is said once.
-void printRemarks(const std::string &Output) {
+std::string remarksOnce(const std::string &Output) {
+  std::string Remarks;
   std::set<std::string> Told;
   constexpr std::string_view Head = "remark: ";
   std::istringstream Lines(Output);
@@ -71,11 +90,14 @@ void printRemarks(const std::string &Output) {
       Line = Line.substr(Head.size(), End - Head.size()) + ": remark" +
              Line.substr(End);
     if (Told.insert(Line).second)
-      std::fprintf(stderr, "%s\n", Line.c_str());
+      Remarks += Line + "\n";
   }
+  return Remarks;
 }
 
 } // namespace
+
+std::function<void(const CompilerAnswer &)> Tools::Listener;
 
 Tools::Tools() {
   std::vector<fs::path> Places;
@@ -122,25 +144,36 @@ std::optional<CompilerFailure> Tools::ask(CompilerRequest &Request,
                                           CompilerAnswer &Answer) const {
   if (!Problem.empty())
     return CompilerFailure{Problem, {}, true};
+  const auto Seconds = compileSeconds();
+  if (!Seconds)
+    return CompilerFailure{CompilerProblem +
+                               std::string("is not started: VORION_COMPILE_"
+                                           "SECONDS has '") +
+                               environmentVariable("VORION_COMPILE_SECONDS") +
+                               "', expected a whole number",
+                           {},
+                           true};
   std::error_code Failed;
   Request.Folder = fs::current_path(Failed).string();
+  Request.IsKept = pocl_cache_keeps_programs();
   std::istringstream Remarks(remarkOptions() ? remarkOptions() : "");
   for (std::string Option; Remarks >> std::quoted(Option);)
     Request.MachineOptions.push_back(Option);
-  auto Response = askCompiler({compiler(), compilerEnvironment(), mayStay()},
-                              textOf(Request));
+  auto Response =
+      askCompiler({compiler(), compilerEnvironment(), mayStay(), *Seconds},
+                  textOf(Request));
   if (auto *Why = std::get_if<CompilerFailure>(&Response))
     return std::move(*Why);
   if (!isReadInto(Answer, std::get<std::string>(Response)))
     return CompilerFailure{compiler() + " is of another version", {}, true};
   if (!Answer.FileProblem.empty())
     pocl_adopt_file_problem(Answer.FileProblem.c_str());
-  if (Answer.Problem.empty()) {
-    if (remarkOptions())
-      printRemarks(Answer.Printed);
-    else
-      std::fputs(Answer.Printed.c_str(), stderr);
-  }
+  if (remarkOptions())
+    Answer.Printed = remarksOnce(Answer.Printed);
+  if (Answer.Problem.empty() && Listener)
+    Listener(Answer);
+  else if (Answer.Problem.empty())
+    std::fputs(Answer.Printed.c_str(), stderr);
   return std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 #include "CompilerMessages.h"
 #include "CompilerProcess.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -34,9 +35,13 @@ public:
   std::optional<CompilerFailure> ask(CompilerRequest &Request,
                                      CompilerAnswer &Answer) const;
 
-private:
   std::string compiler() const;
 
+  /// Gets each answer whose kernel has no error, and prints what is printed, in
+  /// the place of standard error; null for a program of OpenCL.
+  static std::function<void(const CompilerAnswer &)> Listener;
+
+private:
   std::string Root, Problem;
 };
 

@@ -1,4 +1,5 @@
 #include "Worker.h"
+#include "CommandOrder.h"
 #include "Launch.h"
 #include "Messages.h"
 
@@ -133,6 +134,7 @@ void Worker::execute(_cl_command_node *Command) {
                                __func__, __LINE__, Event, "dependent");
     return;
   }
+  const CommandScope Scope(Device, Event);
   // PoCL's own way to execute a kernel command cannot fail.
   if (Command->type != CL_COMMAND_NDRANGE_KERNEL) {
     pocl_exec_command(Command);

@@ -24,6 +24,9 @@ public:
   /// forked process.
   void push(_cl_command_node *Command);
 
+  /// Waits until all commands that are ready have been executed.
+  void finish();
+
   /// Whether this process was forked from the one that has the thread.
   bool isElsewhere() const;
 
@@ -35,7 +38,6 @@ public:
 private:
   void run();
   void execute(_cl_command_node *Command);
-  void finish();
   static void finishAll();
 
   vx_device *Device;
