@@ -1,6 +1,6 @@
 // What the clock measures of each unit: the reason of every cycle, and counts.
 // Enumerations, structures, names, groups, colours, the keys of reports, the
-// page of time and the tables of docs/time-report.md follow from a record;
+// page of time and docs/tables/clock-reasons.md follow from a record;
 // docs/adding-a-clock-reason.md.
 
 class ClockUnit<string name, string one> {
@@ -139,28 +139,28 @@ def : ClockCount<DmaUnit, "copies", "copies begun">;
 def : ClockCount<DmaUnit, "lines", "lines begun">;
 def : ClockCount<DmaUnit, "bytes", "bytes of the copies that ended">;
 
-def : ClockCount<CacheUnit, "reads", "requests of a line that a bank has taken, to read">;
+def : ClockCount<CacheUnit, "reads", "requests of a line that a bank has accepted, to read">;
 def : ClockCount<CacheUnit, "writes", "the same, to write">;
 def : ClockCount<CacheUnit, "atomics", "the same, of atomics">;
-def : ClockCount<CacheUnit, "hits", "requests of any kind whose line was there">;
-def : ClockCount<CacheUnit, "merged", "requests of any kind whose line was on its way">;
-def : ClockCount<CacheUnit, "writebacks", "dirty lines sent down">;
-def : ClockCount<CacheUnit, "kept", "lines that the intersect hint spared from replacement">;
-def : ClockCount<CacheUnit, "bank_cycles", "cycles that requests waited for their bank">;
-def : ClockCount<CacheUnit, "mshr_cycles", "cycles that misses waited for an MSHR">;
+def : ClockCount<CacheUnit, "hits", "requests of any kind whose line was present">;
+def : ClockCount<CacheUnit, "merged", "requests of any kind whose line was already requested (secondary misses)">;
+def : ClockCount<CacheUnit, "writebacks", "dirty lines written to the next level">;
+def : ClockCount<CacheUnit, "kept", "lines that the intersect hint protected from replacement">;
+def : ClockCount<CacheUnit, "bank_cycles", "cycles that requests waited for their bank, summed over requests">;
+def : ClockCount<CacheUnit, "mshr_cycles", "cycles that misses waited for an MSHR, summed over misses">;
 
-def : ClockCount<LinkUnit, "bytes_to_l2", "bytes of messages to the L2, headers included">;
+def : ClockCount<LinkUnit, "bytes_to_l2", "bytes of the messages to the L2 that were sent in the run, headers included">;
 def : ClockCount<LinkUnit, "bytes_from_l2", "the same, back">;
-def : ClockCount<LinkUnit, "busy_to_l2", "cycles in which the direction to the L2 carried a message">;
+def : ClockCount<LinkUnit, "busy_to_l2", "cycles of the chip in which the direction to the L2 carried a message; 0 without a limit on its rate">;
 def : ClockCount<LinkUnit, "busy_from_l2", "the same, back">;
 
 def : ClockCount<DramUnit, "read_bursts", "bursts that read">;
 def : ClockCount<DramUnit, "write_bursts", "bursts that write">;
-def : ClockCount<DramUnit, "row_hits", "lines whose row was open when they were first taken up">;
-def : ClockCount<DramUnit, "row_misses", "lines whose bank had no row open then">;
-def : ClockCount<DramUnit, "row_conflicts", "lines whose bank had another row open then">;
-def : ClockCount<DramUnit, "forwarded", "lines read from a write that waited">;
+def : ClockCount<DramUnit, "row_hits", "lines whose row was open when the controller first considered them">;
+def : ClockCount<DramUnit, "row_misses", "lines of whose bank no row was open then">;
+def : ClockCount<DramUnit, "row_conflicts", "lines of whose bank another row was open then">;
+def : ClockCount<DramUnit, "forwarded", "reads that were forwarded from a queued write">;
 def : ClockCount<DramUnit, "activations", "rows opened">;
-def : ClockCount<DramUnit, "drains", "times that a controller began to drain its writes">;
-def : ClockCount<DramUnit, "refreshes", "refreshes of ranks or banks">;
-def : ClockCount<DramUnit, "bus_ps", "picoseconds that data buses were in use, summed over channels">;
+def : ClockCount<DramUnit, "drains", "number of times that a controller started to drain its writes">;
+def : ClockCount<DramUnit, "refreshes", "refreshes of ranks or banks, those of unused channels included">;
+def : ClockCount<DramUnit, "bus_ps", "picoseconds in which data buses were occupied, summed over channels">;

@@ -134,8 +134,11 @@ def clock_reasons(records):
         if unit.Reasons:
             yield table((f"`{unit.Key}`", "group", f"a cycle in which the {unit.One}"),
                         [(f"`{r.Key}`", r.Group.Label, r.Meaning) for r in unit.Reasons])
-        if unit.Reasons and unit.Counts:
-            yield table((f"`{unit.Key}`: count", "meaning"), [(f"`{c.Key}`", c.Meaning) for c in unit.Counts])
+        else:
+            yield f"## {unit.One[0].upper()}{unit.One[1:]}\n"
+        if unit.Counts:
+            head = f"`{unit.Key}`: count" if unit.Reasons else "count"
+            yield table((head, "meaning"), [(f"`{c.Key}`", c.Meaning) for c in unit.Counts])
 
 
 def page_with_reasons(page, records):

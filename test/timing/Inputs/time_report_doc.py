@@ -22,9 +22,9 @@ def same(told, counted, what):
 
 groups = {"cores", "rasterizers", "pixel_units", "command_processors", "dma_engines", "l2", "llc", "link", "dram", "activities"}
 same(rows("The report")[1], set(time) - groups, "the report")
-same(rows("Caches")[1], time["llc"], "caches")
-same(rows("Link to the L2")[1], time["link"], "link")
-same(rows("DRAM")[1], time["dram"], "DRAM")
+same(rows("Cache", reasons)[1], time["llc"], "caches")
+same(rows("Link to the L2", reasons)[1], time["link"], "link")
+same(rows("DRAM", reasons)[1], time["dram"], "DRAM")
 part, names = rows("Reasons of the clock", reasons)
 units = {"cores", "rasterizers", "pixel_units", "command_processors", "dma_engines"}
 for unit in units:

@@ -43,8 +43,8 @@ def main():
         assert 0 < low <= 100 <= high, name
 
     table = subprocess.run([sys.executable, f"{ROOT}/bench/uncertainty.py", "--parts"], check=True, capture_output=True, text=True)
-    with open(f"{ROOT}/docs/validation.md", encoding="utf-8") as f:
-        assert table.stdout in f.read(), "docs/validation.md: not the table of uncertainty.py --parts"
+    with open(f"{ROOT}/docs/tables/validation.md", encoding="utf-8") as f:
+        assert table.stdout in f.read(), "docs/tables/validation.md: not the table of uncertainty.py --parts"
     print("all checked")
 
 
