@@ -10,7 +10,7 @@ import tails
 import training
 from verdicts import HOLDS, IF, NOT, about, at_least, claim, place
 
-# Its rates at 100 MHz are less than the text's, and 3.6 is 19 x 100 / 530. docs/prior-art.md says from where we have it.
+# Its rates at 100 MHz are less than the text's, and 3.6 is 19 x 100 / 530. docs/tables/prior-art.md says from where we have it.
 FIGURE_9 = "as the paper's figure 9 has it"
 # Pictures that differ by less, differ by rounding (colours are around 1).
 ROUNDING = 1e-5

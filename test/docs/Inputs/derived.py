@@ -1,5 +1,5 @@
-"""usage: derived.py DOCS: checks figures of DOCS' pages that follow from a table: the claims on watts and our rows of prior-art.md
-from the frames of tables/energy-frames.md, the costs of cameras.md from tables/cameras.md, and the README's verdicts on the
+"""usage: derived.py DOCS: checks figures of DOCS' pages that follow from a table: the claims on watts and our rows of
+tables/prior-art.md from the frames of tables/energy-frames.md, the costs of cameras.md from tables/cameras.md, and the README's verdicts on the
 paper from paper-results.md."""
 
 import re
@@ -64,7 +64,7 @@ for machine in ("`prototype`", "`prototype-forwarding`", "`scaled`"):
     rows = [next(row for row in frames if row[:2] == [view, machine]) for view in ("guitar front", "truck overview")]
     rates = [str(int(float(row[2]) + 0.5)) for row in rows]
     power, joules = ([shorts(row[column]) for row in rows] for column in (5, 3))
-    want("prior-art.md", f"{' and '.join(power)} W | {' and '.join(rates)} | {' and '.join(joules)} |")
+    want("tables/prior-art.md", f"{' and '.join(power)} W | {' and '.join(rates)} | {' and '.join(joules)} |")
 
 costs = {}
 for line in read("tables/cameras.md").split("## Errors")[0].splitlines():
