@@ -34,7 +34,7 @@ for unit in units:
 # A machine without DMA engines has none of their reasons.
 if time["dma_engines"]:
     assert set(names) - units <= {name for unit in units for name in time[unit][0]}, names
-activities = rows("Activities")[0]
+activities = rows("Activities", reasons)[0]
 for activity in time["activities"]:
     assert f"`{activity['unit']}`" in activities, activity
     if "instructions" not in activity["unit"]:
