@@ -1,6 +1,6 @@
 /// The words `tohost` and `fromhost` of a program that has them: how test
 /// programs for RISC-V end and print where there is a host to answer (HTIF, as
-/// riscv-tests and Spike use it). docs/abi.md, "Test programs".
+/// riscv-tests and Spike use it). docs/test-programs.md.
 #pragma once
 
 #include "core/HostBudget.h"

@@ -1,5 +1,5 @@
 /// Where the cycles of the cores go: an annotated source listing (docs/
-/// debugging.md, "Profile").
+/// profiling.md, "Profile").
 #pragma once
 
 #include "observe/SourceCosts.h"

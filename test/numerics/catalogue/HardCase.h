@@ -1,5 +1,5 @@
 /// The catalogue of numerically hard scenes: what each is, why it is hard, and
-/// what must come out of it (docs/numerics.md, "Catalogue of hard cases").
+/// what must come out of it (docs/hard-cases.md).
 #pragma once
 
 #include "picture/Options.h"

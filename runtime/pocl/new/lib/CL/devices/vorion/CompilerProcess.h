@@ -1,7 +1,7 @@
 /// The compiler, vorion-compiler, as processes that are kept for further
 /// kernels: their start is most of the compile time of a small kernel
-/// (docs/backend.md, "Cost"). A crash of the compiler does not end this
-/// process.
+/// (docs/adr/0010-one-compiler-process.md). A crash of the compiler does not
+/// end this process.
 #pragma once
 
 #include <string>
