@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Counts the gates of the rasterizer in SystemVerilog (test/rtl) with Yosys: docs/unification.md.
 
-usage: bench/rasterizer_gates.py lanes|rasterizers|backward|MODULE
-lanes: a lane of each design; rasterizers: the whole of each, by part; backward: a pair of lanes and the gather;
-MODULE: any module with its defaults, by module. A gate counts as the transistors of static CMOS that Yosys' `stat -tech
-cmos` gives it, a flip-flop as 16, a bit of the pixel buffer as 6. All other arrays are made of flip-flops.
+usage: bench/rasterizer_gates.py lanes|rasterizers|edges|backward|MODULE
+lanes: a lane of each design; rasterizers: the whole of each, by part; edges: a lane's integer edges, by sub-pixel bits;
+backward: a pair of lanes and the gather; MODULE: any module with its defaults, by module. A gate counts as the
+transistors of static CMOS that Yosys' `stat -tech cmos` gives it, a flip-flop as 16, a bit of the pixel buffer as 6.
+All other arrays are made of flip-flops.
 Restating and dispatch are mapped with `abc -fast`, which gives up to a quarter more: without, they take minutes."""
 
 import collections
@@ -32,6 +33,10 @@ DESIGNS = {
     "both": (1, 1, 0),
     "both, edges in fp32": (1, 1, 1),
 }
+
+
+# Bits of a step and of a value of edges whose corners have N sub-pixel bits: docs/primitives.md.
+EDGES = {"any steps of 32 bits": (32, 40), **{f"{n} sub-pixel bits": (19 + n, 27 + n) for n in (8, 6, 4)}}
 
 
 def designs_of(module):
@@ -135,12 +140,16 @@ def tree(counts, module, depth=0, times=1):
 
 def main():
     if len(sys.argv) != 2:
-        sys.exit("usage: bench/rasterizer_gates.py lanes|rasterizers|backward|MODULE")
+        sys.exit("usage: bench/rasterizer_gates.py lanes|rasterizers|edges|backward|MODULE")
     what = sys.argv[1]
     if what in ("lanes", "rasterizers"):
         module = what[:-1]
         counts = Counts(designs_of(module))
         table(list(DESIGNS), [counts.parts(top) for top in counts.tops])
+        return
+    if what == "edges":
+        counts = Counts([f"edges #(.STEP({step}), .SUM({value}))" for step, value in EDGES.values()])
+        table(list(EDGES), [counts.parts(top) for top in counts.tops])
         return
     counts = Counts(["gradients", "gather"] if what == "backward" else [what])
     for top in counts.tops:

@@ -1,24 +1,27 @@
 // What a lane and a tile have of triangles alone (docs/primitives.md).
 
-// Whether a pixel of the tile is covered: three edges, in integers of 40 bits.
-module edges (
-    input  logic [5:0]   x, y,
+// Whether a pixel of the tile is covered: three edges, in integers.
+module edges #(
+    parameter STEP = 32, // bits of a step
+    parameter SUM = 40   // bits of a value
+) (
+    input  logic [5:0] x, y,
     // Of each edge, its steps and the value at the tile's first pixel.
-    input  logic [95:0]  a, b,
-    input  logic [119:0] corner,
-    output logic         covered
+    input  logic [3*STEP-1:0] a, b,
+    input  logic [3*SUM-1:0]  corner,
+    output logic       covered
 );
   logic signed [6:0] column, row;
   assign column = signed'({1'b0, x});
   assign row = signed'({1'b0, y});
   logic [2:0] negative;
   for (genvar k = 0; k < 3; k = k + 1) begin : one
-    logic signed [31:0] step_x, step_y;
-    logic signed [39:0] sum;
-    assign step_x = signed'(a[32 * k +: 32]);
-    assign step_y = signed'(b[32 * k +: 32]);
-    assign sum = signed'(corner[40 * k +: 40]) + 40'(step_x) * 40'(column) + 40'(step_y) * 40'(row);
-    assign negative[k] = sum[39];
+    logic signed [STEP-1:0] step_x, step_y;
+    logic signed [SUM-1:0] sum;
+    assign step_x = signed'(a[STEP * k +: STEP]);
+    assign step_y = signed'(b[STEP * k +: STEP]);
+    assign sum = signed'(corner[SUM * k +: SUM]) + SUM'(step_x) * SUM'(column) + SUM'(step_y) * SUM'(row);
+    assign negative[k] = sum[SUM-1];
   end
   assign covered = negative == 0;
 endmodule
