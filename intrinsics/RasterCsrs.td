@@ -110,7 +110,8 @@ def VR_GRAD_SYY : Csr<"vr_grad_syy", 0x7FA, Lane, ReadOnly, 0, "Float: sum of s 
 def : IndexedWord<"depth", 0, "Triangles: depth test."> {
   let Fields = [CsrField<"function", 0, 3, "which fragments pass, VR_DEPTH_*">,
                 CsrField<"write", 3, 1, "a fragment that passes replaces the pixel's depth and primitive">,
-                CsrField<"load", 4, 1, "the tile begins with the pixels at vr_output; 0: with VR_WORD_DEPTH_CLEAR and VR_NO_PRIMITIVE">];
+                CsrField<"load", 4, 1, "the tile begins with the pixels at vr_output; 0: with VR_WORD_DEPTH_CLEAR and VR_NO_PRIMITIVE">,
+                CsrField<"integer", 5, 1, "the depth of a fragment is rounded to the nearest integer, ties to even, before the test">];
 }
 def : IndexedWord<"depth_clear", 1, "Triangles: the depth, a float, with which a tile begins.">;
 def : IndexedWord<"limit", 2, "Limited commands: address of the word of the tile's first pixel, 4-byte aligned: number of the first list entry that the pixel does not take. Rows are vr_output_pitch / 4 bytes apart.">;

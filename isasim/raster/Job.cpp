@@ -38,7 +38,7 @@ static BackwardOptions backwardOptions(const Command &C,
 static DepthOptions depthOptions(const Command &C) {
   return {static_cast<uint8_t>(DepthFunction.get(C.Depth)),
           DepthWrite.get(C.Depth) != 0, DepthLoad.get(C.Depth) != 0,
-          std::bit_cast<float>(C.DepthClear)};
+          DepthInteger.get(C.Depth) != 0, std::bit_cast<float>(C.DepthClear)};
 }
 
 static Job decode(const Command &C) {
@@ -103,7 +103,8 @@ static bool isKnownPrimitive(const Command &C, const Job &J) {
   const uint32_t Allowed =
       ModePrimitive.put(ModePrimitive.mask()) | ModeFragments.put(1);
   const uint32_t KnownDepth = DepthFunction.put(DepthFunction.mask()) |
-                              DepthWrite.put(1) | DepthLoad.put(1);
+                              DepthWrite.put(1) | DepthLoad.put(1) |
+                              DepthInteger.put(1);
   return (C.Mode & ~Allowed) == 0 && C.Options == 0 &&
          ZtileCount.get(C.Ztile) <= 1 && (C.Depth & ~KnownDepth) == 0;
 }

@@ -44,8 +44,9 @@ struct LaneUnits {
 struct DepthOptions {
   uint8_t Function = 0;
   bool Writes = false;
-  bool Loads = false; ///< the tile begins with what is at vr_output
-  float Clear = 0;    ///< otherwise with this
+  bool Loads = false;     ///< the tile begins with what is at vr_output
+  bool IsInteger = false; ///< depths are rounded before the test
+  float Clear = 0;        ///< with which a tile begins that loads nothing
 };
 
 /// The bits of vr_mode that a vx_tail_range has.

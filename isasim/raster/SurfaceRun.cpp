@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 
 namespace vorion::raster {
@@ -115,7 +116,9 @@ private:
       for (unsigned X = Did.X; X != Did.X + 0U + Did.Width; ++X) {
         if (!Of.covers(X, Y))
           continue;
-        const float Depth = Of.depth(X, Y);
+        const float Plane = Of.depth(X, Y);
+        const float Depth =
+            Task.Depth.IsInteger ? std::nearbyint(Plane) : Plane;
         Visibility &Pixel = row(Y)[X];
         if (!passesDepth(Task.Depth.Function, Depth, Pixel.Depth))
           continue;

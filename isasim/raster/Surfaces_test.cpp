@@ -32,9 +32,10 @@ protected:
     set(Csr::Word, Value);
   }
   void setDepth(uint32_t Function, bool Writes = true, bool Loads = false,
-                float Clear = 0) {
+                float Clear = 0, bool IsInteger = false) {
     setWord(VR_WORD_DEPTH, DepthFunction.put(Function) |
-                               DepthWrite.put(Writes) | DepthLoad.put(Loads));
+                               DepthWrite.put(Writes) | DepthLoad.put(Loads) |
+                               DepthInteger.put(IsInteger));
     setWord(VR_WORD_DEPTH_CLEAR, std::bit_cast<uint32_t>(Clear));
   }
 
@@ -465,6 +466,35 @@ TEST_F(SurfacesTest, DepthFunctionsAreTheEight) {
   }
 }
 
+TEST_F(SurfacesTest, IntegerDepthsAreRoundedBeforeTheTest) {
+  constexpr TileCommand Pixel{.Width = 1, .Height = 1};
+  constexpr float Largest = (1 << 24) - 1;
+  const std::pair<float, float> Depths[] = {{0.5F, 0},
+                                            {1.5F, 2},
+                                            {2.5F, 2},
+                                            {2.25F, 2},
+                                            {2.75F, 3},
+                                            {-0.5F, 0},
+                                            {Largest, Largest},
+                                            {65534.5F, 65534},
+                                            {3, 3},
+                                            {8388607.5F, 8388608}};
+  for (const auto &[Given, Rounded] : Depths) {
+    setDepth(VR_DEPTH_ALWAYS, true, false, 0, true);
+    const Triangle T = flat(Given, 5);
+    EXPECT_EQ(draw({&T, 1}, Pixel)[0].Depth, Rounded);
+    const auto Handed = drawFragments({&T, 1}, Pixel);
+    ASSERT_EQ(Handed.size(), 1U);
+    EXPECT_EQ(Handed[0].Depth, Rounded);
+  }
+  // Of two that become equal the first stays, though the second is nearer.
+  const Triangle Both[] = {flat(6.75F, 1), flat(7.25F, 2)};
+  setDepth(VR_DEPTH_GREATER, true, false, 0, true);
+  EXPECT_EQ(draw(Both, Pixel)[0].Primitive, 1U);
+  setDepth(VR_DEPTH_GREATER);
+  EXPECT_EQ(draw(Both, Pixel)[0].Primitive, 2U);
+}
+
 TEST_F(SurfacesTest, DepthIsAPlaneAboutTheFirstPixelOfTheBox) {
   Triangle T = flat(8, 3);
   T.DepthStep[0] = 0.5F;
@@ -593,7 +623,7 @@ TEST_F(SurfacesTest, BadConfigurationsHaveTheirCodes) {
       {Csr::Mode, ModeFragments.put(1), VR_BAD_MODE},
       {Csr::Ztile, ZtileCount.put(2), VR_BAD_MODE},
       {Csr::Options, OptionsSkipSaturated.put(1), VR_BAD_MODE},
-      {Csr::Word, 1U << 5, VR_BAD_MODE},
+      {Csr::Word, 1U << 6, VR_BAD_MODE},
       {Csr::TileShape, TileShapeWidth.put(65) | TileShapeHeight.put(8),
        VR_BAD_SHAPE},
       {Csr::Count, VR_MAX_COUNT + 1, VR_BAD_COUNT},

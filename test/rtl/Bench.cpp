@@ -173,6 +173,13 @@ int tiles(Vtop &Top, const char *Name, double Percent) {
   double Worst = 0;
   Answers Memory;
   for (RasterTile T; T.read(File); ++Count) {
+    if (T.What.Depth >> 4 != 0) { // VR_WORD_DEPTH: load, integer
+      std::fprintf(stderr,
+                   "Bench: error: %s: tile %s loads pixels or has integer "
+                   "depths, expected neither, which the circuit does not do\n",
+                   Name, T.What.Name.data());
+      return 3;
+    }
     Run R(Top, Memory, T);
     const Spent S = R.run();
     const RasterTile::Head &W = T.What;
