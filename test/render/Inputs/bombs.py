@@ -77,6 +77,12 @@ def write(name, content):
         out.write(content)
 
 
+def zeros(megabytes):
+    """Packed piece by piece: the kernel counts the memory of this process in the peak of each that it starts."""
+    packer = zlib.compressobj()
+    return b"".join(packer.compress(bytes(1 << 20)) for _ in range(megabytes)) + packer.flush()
+
+
 def chunk(kind, content):
     return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
 
@@ -112,7 +118,7 @@ write("parts.exr", exr(parts[0], b"\0", flags=0x1000))
 write("side.png", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 16384, 16384, 8, 6, 0, 0, 0)) +
       chunk(b"IDAT", zlib.compress(bytes(1 << 16))) + chunk(b"IEND", b""))
 write("text.png", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, 8, 6, 0, 0, 0)) +
-      chunk(b"iCCP", b"a\0\0" + zlib.compress(bytes(200 << 20))) + chunk(b"zTXt", b"a\0\0" + zlib.compress(bytes(200 << 20))) +
+      chunk(b"iCCP", b"a\0\0" + zeros(200)) + chunk(b"zTXt", b"a\0\0" + zeros(200)) +
       chunk(b"IDAT", zlib.compress(bytes(4))) + chunk(b"IEND", b""))
 sides = struct.pack("<BI", 0x2f, 16383 | 16383 << 14)
 write("side.webp", b"RIFF" + struct.pack("<I", 4 + 8 + 6) + b"WEBPVP8L" + struct.pack("<I", 5) + sides + b"\0")
