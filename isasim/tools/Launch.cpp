@@ -4,6 +4,7 @@
 #include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
@@ -126,8 +127,9 @@ Expected<uint64_t> KernelLaunch::packArguments(const Kernel &K,
     for (const KernelArg &Arg : K.Args)
       Wanted += fmt::format("{}{} ({})", Wanted.empty() ? ": " : ", ", Arg.Name,
                             Kinds[Arg.Kind]);
-    return usage(fmt::format("{} arguments, expected {} for kernel '{}'{}",
-                             R.Args.size(), K.Args.size(), K.Name, Wanted));
+    return usage(fmt::format("{}, expected {} for kernel '{}'{}",
+                             counted(R.Args.size(), "argument"), K.Args.size(),
+                             K.Name, Wanted));
   }
   Args.resize(K.ArgsBytes);
   LocalPlaces Locals(K, Device->config());

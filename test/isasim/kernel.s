@@ -15,7 +15,7 @@
 # What does not fit the kernel is said in one line, with exit code 2.
 # RUN: sh -c 'vorion-sim %t.elf --global 100 --arg i32:1 2> %t.err; echo "exit $?" >> %t.err'
 # RUN: FileCheck %s --check-prefix=COUNT < %t.err
-# COUNT: vorion-sim: error: 1 arguments, expected 4 for kernel 'scale': a (a buffer), out (a buffer), k (a value), scratch (local memory){{$}}
+# COUNT: vorion-sim: error: 1 argument, expected 4 for kernel 'scale': a (a buffer), out (a buffer), k (a value), scratch (local memory){{$}}
 # COUNT-NEXT: exit 2
 # RUN: not vorion-sim %t.elf --kernel mul --global 100 2>&1 | FileCheck %s --check-prefix=NAME
 # NAME: no kernel 'mul', expected one of: scale
