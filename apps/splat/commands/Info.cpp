@@ -83,12 +83,12 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
         F.DrawnAs.Dilation ? fmt::format(", dilation {}", *F.DrawnAs.Dilation)
                            : "");
   const SceneFormatRecord &Kind = recordOf(F.Format);
-  Text += fmt::format(
-      "axes         {} by {}; {}\n",
-      Kind.Axes.empty() ? CustomaryAxes : Kind.Axes,
-      Kind.Axes.empty() ? "by custom, not specified by the format"
-                        : "the format's documentation",
-      A.Scene.Axes.empty() ? "not converted" : "changed " + A.Scene.Axes + "");
+  Text += fmt::format("axes         {} by {}; {}\n",
+                      Kind.Axes.empty() ? CustomaryAxes : Kind.Axes,
+                      Kind.Axes.empty() ? "custom, not specified by the format"
+                                        : "the format's documentation",
+                      A.Scene.Axes.empty() ? "not converted"
+                                           : "changed " + A.Scene.Axes + "");
   const auto Box = [&](const char *Name, const std::array<double, 3> &Low,
                        const std::array<double, 3> &High) {
     Text +=
