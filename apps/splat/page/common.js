@@ -34,7 +34,8 @@ function drawChart(id, config) {
   charts[id] = new Chart(byId(id), config);
 }
 
-// Draws on the canvas `id` what is no chart: `paint` gets a context whose pixels are those of the picture, and `rows` its numbers.
+// Draws on the canvas `id` what is no chart: `paint` gets a context whose pixels are those of the picture, `rows` has its numbers, `colour`
+// gives the colour of a share of the scale, and `end` is the text at the scale's end.
 function drawCells(id, cells) {
   if (onPaper) onPaper[id] = cells;
   else if (hasScreen) cells.paint(byId(id).getContext('2d'));

@@ -155,10 +155,25 @@ function chartOnPaper(config) {
   return drawn(height - chartArea.height + wanted).ctx;
 }
 
-function cellsOnPaper({ width, height, paint }) {
-  const context = new SvgContext(COLUMN, COLUMN * height / width);
+// Cells on paper, with the scale of their colours below.
+function cellsOnPaper({ width, height, paint, colour: colourOf, end }) {
+  const tall = COLUMN * height / width, context = new SvgContext(COLUMN, tall + 2.5 * TEXT), steps = 64;
+  context.save();
   context.scale(COLUMN / width, COLUMN / width);
   paint(context);
+  context.restore();
+  context.font = `${TEXT}px ${FONT}`;
+  const from = 2 * TEXT, to = COLUMN - textWidth(end, TEXT) - TEXT, y = tall + TEXT, step = (to - from) / steps;
+  for (let n = 0; n < steps; ++n) {
+    context.fillStyle = colourOf((n + 0.5) / steps);
+    context.fillRect(from + n * step, y, Math.min(2 * step, to - from - n * step), TEXT); // no gaps between steps
+  }
+  context.fillStyle = colour('ink');
+  context.textBaseline = 'middle';
+  context.textAlign = 'right';
+  context.fillText('0', from - TEXT / 2, y + TEXT / 2);
+  context.textAlign = 'left';
+  context.fillText(end, to + TEXT / 2, y + TEXT / 2);
   return context;
 }
 

@@ -124,7 +124,7 @@ function drawReasons() {
 
 function heatColour(share) {
   const at = Math.min(Math.max(share, 0), 1) * (RAMP.length - 1), step = Math.min(Math.floor(at), RAMP.length - 2);
-  return `rgb(${RAMP[step].map((from, k) => Math.round(from + (at - step) * (RAMP[step + 1][k] - from))).join(' ')})`;
+  return `rgb(${RAMP[step].map((from, k) => Math.round(from + (at - step) * (RAMP[step + 1][k] - from))).join(',')})`; // as SVG 1.1 has it
 }
 
 const mapped = runs.map((run, n) => ({ ...run, n })).filter(r => r.report.heat_map);
@@ -151,14 +151,15 @@ function addMaps() {
 function drawMaps() {
   const { heat } = state;
   const most = Math.max(...mapped.map(r => r.report.heat_map.scales[heat]));
-  byId('most').textContent = mapped.length ? `${number(most)} ${HEATS[heat]}` : '';
+  const end = mapped.length ? `${number(most)} ${HEATS[heat]}` : '';
+  byId('most').textContent = end;
   byId('ramp').style.background = `linear-gradient(to right, ${RAMP.map(c => `rgb(${c.join(' ')})`).join(', ')})`;
   for (const run of mapped) {
     const { heat_map: { tiles }, resolution: [width, height] } = run.report, canvas = byId(`map${run.n}`);
     canvas.setAttribute('aria-label', tileTitle(run));
     canvas.nextElementSibling.textContent = tileTitle(run);
     drawCells(canvas.id, {
-      width, height, rows: [['x', 'y', HEATS[heat]], ...tiles.map(tile => [tile.x, tile.y, tile[heat]])],
+      width, height, rows: [['x', 'y', HEATS[heat]], ...tiles.map(tile => [tile.x, tile.y, tile[heat]])], colour: heatColour, end,
       paint: context => {
         context.fillStyle = '#404040';
         context.fillRect(0, 0, width, height);

@@ -70,8 +70,13 @@ for figure in saved:
     root = xml.fromstring(figure["svg"])
     width = float(root.get("width")[:-2])
     assert root.get("width").endswith("mm") and 83.9 < width < 178.1, (figure["name"], width)
-    if "map" not in figure["name"]:
-        assert len(root.findall("{http://www.w3.org/2000/svg}text")) > 3, figure["name"]
+    texts = [text.text for text in root.findall("{http://www.w3.org/2000/svg}text")]
+    if figure["name"].startswith("map0"):  # the scale of its colours
+        most = max(float(row[2]) for row in rows(figure["name"] + ".csv")[1:])
+        end = float(texts[1].split()[0].replace(",", ""))
+        assert texts[0] == "0" and end == (100 if "saturation" in figure["name"] else most), (figure["name"], texts, most)
+    else:
+        assert len(texts) > 3, figure["name"]
 
 # The numbers are those of the report.
 stages = {s["name"]: s["time"]["cycles"] for s in report["time"]["stages"] if s["of_the_frame"] and "time" in s}
