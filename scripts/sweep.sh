@@ -42,16 +42,24 @@ measure() { # the points of standard input
     ) \"\$(sed -n \"\${SLURM_ARRAY_TASK_ID}p\" $(printf %q "$List"))\" > $Log 2>&1 && rm $Log" || Failed=1
   done
   if [ "$Failed" = 1 ]; then # what jobs said that failed
-    cat "$Folder"/*.log.* >&2 || true
+    cat "$Folder"/*.log.* >&2 2>/dev/null || true
     fail "not all jobs ended well, expected a Slurm whose nodes see this folder; the same command goes on"
   fi
   rm -r "$Folder"
 }
 
-Arguments=("$@")
+# Figures are of the page, which only the last command writes.
+Arguments=() Figures=()
+while [ $# != 0 ]; do
+  case $1 in
+  --figures) Figures=("${@:1:2}") && shift "${#Figures[@]}" ;;
+  --figures=*) Figures=("$1") && shift ;;
+  *) Arguments+=("$1") && shift ;;
+  esac
+done
 # What the first points find out says which the second are.
 for _ in 1 2; do
   Points=$(splat "${Arguments[@]}" --list)
   [ -z "$Points" ] || measure <<< "$Points"
 done
-splat "${Arguments[@]}"
+splat "${Arguments[@]}" "${Figures[@]}"
