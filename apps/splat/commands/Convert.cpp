@@ -1,11 +1,11 @@
 #include "commands/Commands.h"
 #include "commands/InputFiles.h"
+#include "commands/MeshArguments.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "commands/SceneEdits.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
-#include "mesh/Mesh.h"
 #include "scene/Edit.h"
 #include "scene/LocalFrame.h"
 #include "scene/SceneWriter.h"
@@ -80,13 +80,16 @@ void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
                                               fmt::join(Lost, ", ")));
 }
 
-/// The triangles of a file, for a `.glb`; the warnings are printed.
-Expected<Success> joinMesh(const std::string &Path, std::optional<Mesh> &To) {
-  auto Read = readMesh(Path);
+/// The triangles of a file, for a `.glb`, in the axes of \p First.
+Expected<Success> joinMesh(const SceneArguments &First, const std::string &Path,
+                           std::optional<Mesh> &To) {
+  auto Read = loadMesh(Path);
   if (!Read)
     return Read.error();
-  for (const MeshWarning &W : Read->Warnings)
-    printDiagnostic("splat", "warning", W.Where, W.What);
+  const auto Change = axesChangeOf(First);
+  if (!Change)
+    return Change.error();
+  changeAxes(*Read, *Change);
   if (To)
     To->append(std::move(*Read));
   else
@@ -105,7 +108,7 @@ Expected<Success> joinOthers(const SceneArguments &First,
       if (!Content)
         return Content.error();
       if (isMeshFile(*Content)) {
-        if (auto Joined = joinMesh(Path, *Meshes); !Joined)
+        if (auto Joined = joinMesh(First, Path, *Meshes); !Joined)
           return Joined;
         continue;
       }
@@ -121,7 +124,7 @@ Expected<Success> joinOthers(const SceneArguments &First,
                          "--no-antialiased, and --dilation, for all"};
     To.Dropped += Read->Dropped;
     if (Meshes && Read->Meshes > 0)
-      if (auto Joined = joinMesh(Path, *Meshes); !Joined)
+      if (auto Joined = joinMesh(First, Path, *Meshes); !Joined)
         return Joined;
     join(To.Gaussians, std::move(Read->Gaussians));
   }
@@ -203,23 +206,19 @@ Expected<Success> run(const ConvertArguments &A) {
     return File.error();
   std::optional<Mesh> Triangles;
   if (HasMeshes && File->Meshes > 0)
-    if (auto Joined = joinMesh(A.Scene.Path, Triangles); !Joined)
+    if (auto Joined = joinMesh(First, A.Scene.Path, Triangles); !Joined)
       return Joined;
   if (auto Joined =
           joinOthers(First, A.More, *File, HasMeshes ? &Triangles : nullptr);
       !Joined)
     return Joined;
-  const SceneEdits &E = A.Edits;
-  if (Triangles && (!A.Scene.Axes.empty() || !E.Translate.empty() ||
-                    !E.Rotate.empty() || E.Scale))
-    return Error{"",
-                 "--axes, --translate, --rotate and --scale move no triangles, "
-                 "expected none of them with a mesh",
-                 ExitCode::Usage};
   const std::size_t Read = File->Gaussians.size();
   const auto Changes = editScene(File->Gaussians, A.Edits);
   if (!Changes)
     return Changes.error();
+  if (Triangles)
+    if (auto Moved = moveMesh(*Triangles, A.Edits); !Moved)
+      return Moved;
   for (const auto &Left : Changes->Left)
     printOut("{}\n", Left.Text);
   if (Changes->Reordered)

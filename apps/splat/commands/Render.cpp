@@ -6,6 +6,7 @@
 #include "commands/HeatMapFiles.h"
 #include "commands/InputFiles.h"
 #include "commands/LayerOptions.h"
+#include "commands/MeshArguments.h"
 #include "commands/NumericsReport.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
@@ -24,6 +25,7 @@
 #include "render/Explain.h"
 #include "render/Fallback.h"
 #include "render/FrameTime.h"
+#include "render/MeshRules.h"
 #include "render/Pictures.h"
 #include "render/Report.h"
 #include "vorion/support/CommandLine.h"
@@ -36,8 +38,6 @@
 #include "vorion/support/TemporaryFolder.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <memory>
@@ -67,7 +67,7 @@ struct RenderArguments : DrawArguments {
   std::optional<double> FrameRate; ///< of a video, per second
   std::string Numerics;            ///< settings, empty for no
   std::string HeatMap; ///< what names of files begin with, empty for no
-  std::string Mesh;    ///< file of a mesh, empty for no
+  MeshArguments Mesh;
   std::string Visible; ///< --dump-visible
 };
 
@@ -85,39 +85,18 @@ bool blendsAgain(const RenderArguments &A) {
   return A.Layers.needDepths() || A.Layers.needNormals();
 }
 
-/// What transparent surfaces cannot be drawn with.
-Expected<Success> checkTransparency(const RenderArguments &A) {
-  const RenderOptions &O = A.Options;
-  const char *Expected = O.ZTiles != 1                  ? "--ztiles 1"
-                         : O.Deal == Dealing::LastFrame ? "--deal lists"
-                         : A.Overlap                    ? "no --overlap"
-                         : A.Layers.needDepths()        ? "no --depth"
-                                                        : nullptr;
-  if (!Expected || !O.Surface || !O.Surface->has(AlphaMode::Blend))
-    return Success{};
-  return Error{O.Surface->File,
-               fmt::format("transparent surfaces are drawn between ranges of "
-                           "whole lists, expected {}",
-                           Expected),
-               ExitCode::Usage};
-}
-
 /// What a mesh, if there is one, cannot be drawn with; and what needs one.
 Expected<Success> checkMesh(const RenderArguments &A, bool HasMesh) {
   const auto Usage = [](std::string What) {
     return Error{"", std::move(What), ExitCode::Usage};
   };
-  const RenderOptions &O = A.Options;
   if (!HasMesh) {
     if (!A.Visible.empty())
       return Usage("--dump-visible shows a mesh, expected --mesh");
-    return O.Light ? Usage("--light shines on a mesh, expected --mesh")
-                   : Expected<Success>(Success{});
+    return A.Mesh.Light ? lightWithoutMesh() : Expected<Success>(Success{});
   }
   if (A.Layers.needNormals() || A.Layers.needLists())
-    return Usage("--mesh has no normals and contributors beside the picture, "
-                 "expected none of --normals, --contributors and --depth-as "
-                 "median");
+    return layersBesideMesh();
   if (!A.HeatMap.empty())
     return Usage("--heat-map shows one command per tile, expected no --mesh");
   if (A.Explain == "measure")
@@ -125,76 +104,6 @@ Expected<Success> checkMesh(const RenderArguments &A, bool HasMesh) {
   if (!isOne(A) && !A.Visible.empty())
     return Usage("--dump-visible applies to one picture, expected one --view");
   return Success{};
-}
-
-/// Reads a mesh, and prints what is left out.
-Expected<Mesh> loadMesh(const std::string &Path) {
-  auto Read = readMesh(Path);
-  if (Read)
-    for (const MeshWarning &W : Read->Warnings)
-      printDiagnostic("splat", "warning", W.Where, W.What);
-  return Read;
-}
-
-/// \p M in the frame of a scene with the origin \p Origin.
-Mesh relativeTo(Mesh M, const WorldPoint &Origin) {
-  for (std::size_t I = 0; I < M.Positions.size(); ++I)
-    M.Positions[I] = static_cast<float>(M.Positions[I] - Origin[I % 3]);
-  return M;
-}
-
-/// \p M in the axes of a scene that \p A reads from the same file.
-Expected<Mesh> inAxesOf(const SceneArguments &A, Mesh M) {
-  const auto Change = axesChangeOf(A);
-  if (!Change)
-    return Change.error();
-  for (std::vector<float> *Vectors : {&M.Positions, &M.Normals})
-    for (std::size_t I = 0; I < Vectors->size(); ++I)
-      (*Vectors)[I] *=
-          static_cast<float>(Change->From[I % 3] * Change->To[I % 3]);
-  return M;
-}
-
-/// The triangles to draw: those beside the Gaussians in the scene's file, then
-/// those of --mesh. Without any, null.
-Expected<std::shared_ptr<const Mesh>> loadMeshes(const RenderArguments &A,
-                                                 const SceneFile &File) {
-  std::optional<Mesh> All;
-  if (File.Meshes > 0) {
-    auto Own = loadMesh(A.Scene.Path);
-    if (Own)
-      Own = inAxesOf(A.Scene, std::move(*Own));
-    if (!Own)
-      return Own.error();
-    All = std::move(*Own);
-  }
-  if (!A.Mesh.empty()) {
-    auto Added = loadMesh(A.Mesh);
-    if (!Added)
-      return Added.error();
-    if (All)
-      All->append(std::move(*Added));
-    else
-      All = std::move(*Added);
-  }
-  if (!All)
-    return std::shared_ptr<const Mesh>();
-  return std::make_shared<const Mesh>(
-      relativeTo(std::move(*All), File.Gaussians.Origin));
-}
-
-/// Whether the cameras of \p A show straight lines straight.
-Expected<Success> checkMeshCameras(const RenderArguments &A) {
-  const RenderOptions &O = A.Options;
-  if (!O.Surface ||
-      (!O.Rolling && (O.Optics->isPinhole() || O.Optics->IsParallel)))
-    return Success{};
-  return Error{A.Cameras.File,
-               fmt::format("--mesh: a camera of model {}{}, expected a pinhole "
-                           "or orthographic camera with a global shutter",
-                           O.Optics->Name,
-                           O.Rolling ? " with a rolling shutter" : ""),
-               ExitCode::Usage};
 }
 
 /// What a video cannot be written with.
@@ -234,7 +143,7 @@ Expected<Success> check(const RenderArguments &A) {
        {checkEnding("-o", A.Output, outputEndings()), checkVideo(A),
         checkEnding("--dump-pairs", A.Pairs, {".npz"}),
         checkEnding("--dump-visible", A.Visible, {".npz"}),
-        A.Mesh.empty() ? Success{} : checkMesh(A, /*HasMesh=*/true),
+        A.Mesh.File.empty() ? Success{} : checkMesh(A, /*HasMesh=*/true),
         checkJsonName(A.Json), checkPage(A.Page),
         checkEnding("--write-cameras", A.CamerasOut, {".json"})})
     if (!Checked)
@@ -297,7 +206,7 @@ Expected<Success> check(const RenderArguments &A) {
                                    .scene(A.Scene.Path)
                                    .cameras(A.Cameras.File)
                                    .file("--technology", A.Energy.Technology)
-                                   .file("--mesh", A.Mesh)
+                                   .file("--mesh", A.Mesh.File)
                                    .named());
 }
 
@@ -449,7 +358,7 @@ Expected<Success> claimPictures(const RenderArguments &A,
                                     .cameras(A.Cameras.File)
                                     .file("--write-cameras", A.CamerasOut)
                                     .file("--json", A.Json)
-                                    .file("--mesh", A.Mesh)
+                                    .file("--mesh", A.Mesh.File)
                                     .named());
 }
 
@@ -520,15 +429,14 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   auto File = loadScene(A.Scene, loadPlatforms);
   if (!File)
     return File.error();
-  auto Surface = loadMeshes(A, *File);
-  if (!Surface)
-    return Surface.error();
-  A.Options.Surface = std::move(*Surface);
+  const auto OwnMesh = loadOwnMesh(A.Scene, *File);
+  if (!OwnMesh)
+    return OwnMesh.error();
+  const auto AddedMesh = loadAddedMesh(A.Mesh);
+  if (!AddedMesh)
+    return AddedMesh.error();
+  A.Options.Light = A.Mesh.Light;
   A.Options.KeepVisible = !A.Visible.empty();
-  for (const auto &Checked :
-       {checkMesh(A, A.Options.Surface != nullptr), checkTransparency(A)})
-    if (!Checked)
-      return Checked;
   drawAs(A.Options, File->DrawnAs);
   const Scene *S = &File->Gaussians;
   const auto Cameras =
@@ -537,8 +445,14 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return Cameras.error();
   if (auto Through = drawThrough(A.Options, A.Cameras.File, *Cameras); !Through)
     return Through;
-  if (auto Checked = checkMeshCameras(A); !Checked)
-    return Checked;
+  // In the frame of the scene as it is drawn.
+  A.Options.Surface = joined(*OwnMesh, *AddedMesh, S->Origin);
+  for (const auto &Checked :
+       {checkMesh(A, A.Options.Surface != nullptr),
+        checkTransparency(A.Options, A.Layers.needDepths(), A.Overlap),
+        checkMeshCamera(A.Options, A.Cameras.File)})
+    if (!Checked)
+      return Checked;
   if (!isOne(A) && !isVideo(A))
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;
@@ -709,25 +623,7 @@ Runner addRender(CLI::App &App) {
             "Distribution of tiles to the rasterizers: by the lengths of their "
             "lists or, with several pictures, by their cost in the previous "
             "one (docs/ideas.md)");
-  Group.next("Scene");
-  takesFile(App.add_option("--mesh", A->Mesh,
-                           "Mesh of triangles that is drawn with the "
-                           "Gaussians: .obj, .ply, .glb or .gltf "
-                           "(docs/meshes.md)"),
-            {".obj", ".ply", ".glb", ".gltf"});
-  addVectorOption(
-      App, "--light", "0.3,-1,0.5",
-      [A](std::array<float, 3> Along) {
-        const double Length = std::hypot(Along[0], Along[1], Along[2]);
-        if (!(Length > 0 && Length < 1e30))
-          throw CLI::ValidationError("--light", "expected a direction");
-        for (float &Part : Along)
-          Part = static_cast<float>(Part / Length);
-        A->Options.Light = Along;
-      },
-      "Direction in which a light shines on the mesh, by the world's axes "
-      "(default: no light, colours as they are)")
-      ->option_text("X,Y,Z");
+  addMeshOptions(App, A->Mesh);
   Group.next("Beside the picture");
   writesFile(App.add_option("--dump-visible", A->Visible,
                             "Write depth and triangle of the mesh in each "

@@ -163,4 +163,13 @@ Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E) {
   return Done;
 }
 
+Expected<Success> moveMesh(Mesh &M, const SceneEdits &E) {
+  transform(M, moveOf(E));
+  if (!std::ranges::all_of(M.Positions,
+                           [](float V) { return std::isfinite(V); }))
+    return Error{M.file(), "the transformed mesh exceeds the range of floats, "
+                           "expected a smaller --scale or --translate"};
+  return Success{};
+}
+
 } // namespace vorion::splat

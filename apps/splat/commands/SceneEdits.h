@@ -1,6 +1,7 @@
 /// Changes that `splat convert` applies to a scene.
 #pragma once
 
+#include "mesh/Mesh.h"
 #include "scene/Scene.h"
 #include "vorion/support/Expected.h"
 
@@ -42,5 +43,8 @@ struct SceneChanges {
 /// and sphere, sets the SH degree, and reorders the rest. An Error if no
 /// Gaussian remains.
 Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E);
+
+/// Transforms \p M as editScene() transforms a scene, which checks \p E.
+Expected<Success> moveMesh(Mesh &M, const SceneEdits &E);
 
 } // namespace vorion::splat

@@ -481,6 +481,8 @@ Expected<Mesh> Reader::read() {
       return Error{Where, fmt::format("mesh {} has no primitives, expected a "
                                       "list",
                                       Each.Mesh)};
+    Result.beginPart(Each.Name.empty() ? fmt::format("mesh {}", Each.Mesh)
+                                       : Each.Name);
     for (std::size_t P = 0; P < Primitives->size(); ++P) {
       const Json &One = (*Primitives)[P];
       Name = fmt::format("mesh {} primitive {}", Each.Mesh, P);

@@ -135,22 +135,25 @@ private:
 } // namespace
 
 void addMesh(GltfWriter &To, const Mesh &M) {
-  // Runs of triangles with one material: their order decides between equals.
-  Json Primitives = Json::array();
   Looks Of(To, M);
-  for (std::size_t First = 0; First < M.triangles();) {
-    const uint32_t Look = M.MaterialOf[First];
-    Part P(M);
-    std::size_t T = First;
-    for (; T < M.triangles() && M.MaterialOf[T] == Look; ++T)
-      for (std::size_t K = 0; K < 3; ++K)
-        P.addCorner(3 * T + K);
-    Json Primitive = P.primitive(To);
-    Primitive["material"] = Of.material(Look);
-    Primitives.push_back(std::move(Primitive));
-    First = T;
+  std::size_t T = 0;
+  for (std::size_t N = 0; N < M.Parts.size(); ++N) {
+    const std::size_t End =
+        N + 1 < M.Parts.size() ? M.Parts[N + 1].First : M.triangles();
+    // Runs of triangles with one material: their order decides between equals.
+    Json Primitives = Json::array();
+    while (T < End) {
+      const uint32_t Look = M.MaterialOf[T];
+      Part P(M);
+      for (; T < End && M.MaterialOf[T] == Look; ++T)
+        for (std::size_t K = 0; K < 3; ++K)
+          P.addCorner(3 * T + K);
+      Json Primitive = P.primitive(To);
+      Primitive["material"] = Of.material(Look);
+      Primitives.push_back(std::move(Primitive));
+    }
+    To.addNode(std::move(Primitives), M.Parts[N].Name);
   }
-  To.addNode(std::move(Primitives));
 }
 
 } // namespace vorion::splat

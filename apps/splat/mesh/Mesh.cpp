@@ -3,11 +3,15 @@
 #include "io/PlyHeader.h"
 #include "scene/formats/Formats.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -22,6 +26,18 @@ uint32_t Mesh::addVertex(const std::array<float, 3> &Position,
 bool Mesh::has(AlphaMode Mode) const {
   return std::ranges::any_of(
       MaterialOf, [&](uint32_t M) { return Materials[M].Alpha == Mode; });
+}
+
+const MeshPart &Mesh::partOf(std::size_t Triangle) const {
+  return *std::prev(
+      std::ranges::upper_bound(Parts, Triangle, {}, &MeshPart::First));
+}
+
+void Mesh::beginPart(std::string_view Name) {
+  // One without triangles is none.
+  if (Parts.back().First != triangles())
+    Parts.push_back({Parts.back().File, "", triangles(), triangles()});
+  Parts.back().Name = printable(Name);
 }
 
 void Mesh::addPolygon(std::span<const MeshCorner> Polygon, uint32_t Look) {
@@ -77,6 +93,9 @@ void Mesh::append(Mesh Other) {
   for (Material &M : Other.Materials)
     if (M.Picture)
       *M.Picture += FirstTexture;
+  for (MeshPart &Part : Other.Parts)
+    Part.First += triangles();
+  Join(Parts, Other.Parts);
   Join(Positions, Other.Positions);
   Join(Colors, Other.Colors);
   Join(Corners, Other.Corners);
@@ -84,6 +103,47 @@ void Mesh::append(Mesh Other) {
   Join(Materials, Other.Materials);
   std::ranges::move(Other.Textures, std::back_inserter(Textures));
   Join(Warnings, Other.Warnings);
+}
+
+void transform(Mesh &M, const Similarity &By) {
+  if (By == Similarity())
+    return;
+  const auto Turn = [&By](std::vector<float> &Vectors, double Scale,
+                          const std::array<double, 3> &Then) {
+    for (std::size_t I = 0; I < Vectors.size(); I += 3) {
+      const std::array<double, 3> V{Vectors[I], Vectors[I + 1], Vectors[I + 2]};
+      for (std::size_t A = 0; A < 3; ++A) {
+        double Sum = 0;
+        for (std::size_t K = 0; K < 3; ++K)
+          Sum += By.Rotation[A][K] * V[K];
+        Vectors[I + A] = static_cast<float>(Scale * Sum + Then[A]);
+      }
+    }
+  };
+  Turn(M.Positions, By.Scale, By.Translation);
+  Turn(M.Normals, 1, {});
+}
+
+void changeAxes(Mesh &M, const AxesChange &Change) {
+  for (std::vector<float> *Vectors : {&M.Positions, &M.Normals})
+    for (std::size_t I = 0; I < Vectors->size(); ++I)
+      (*Vectors)[I] *=
+          static_cast<float>(Change.From[I % 3] * Change.To[I % 3]);
+}
+
+std::shared_ptr<const Mesh> joined(std::shared_ptr<const Mesh> First,
+                                   std::shared_ptr<const Mesh> Second,
+                                   const WorldPoint &Origin) {
+  if (!First)
+    std::swap(First, Second);
+  if (!First || (!Second && Origin == WorldPoint{}))
+    return First;
+  Mesh All = *First;
+  if (Second)
+    All.append(*Second);
+  for (std::size_t I = 0; I < All.Positions.size(); ++I)
+    All.Positions[I] = static_cast<float>(All.Positions[I] - Origin[I % 3]);
+  return std::make_shared<const Mesh>(std::move(All));
 }
 
 bool isMeshFile(Bytes File) {
@@ -114,6 +174,10 @@ Expected<Mesh> readMesh(const std::string &Path) {
   auto Read = parse(Path, *File);
   if (!Read)
     return Read;
+  // What a file ends with may have no triangles.
+  while (Read->Parts.size() > 1 &&
+         Read->Parts.back().First == Read->triangles())
+    Read->Parts.pop_back();
   if (Read->triangles() == 0)
     return Error{Path, "no triangles, expected at least one"};
   if (Read->vertices() >= MaxMeshSize || Read->triangles() >= MaxMeshSize)
@@ -122,7 +186,8 @@ Expected<Mesh> readMesh(const std::string &Path) {
                              "2^31 of each",
                              Read->vertices(), Read->triangles()),
                  ExitCode::LimitReached};
-  Read->File = Path;
+  for (MeshPart &Part : Read->Parts)
+    Part.File = Path;
   return Read;
 }
 

@@ -2,15 +2,20 @@
 #pragma once
 
 #include "io/Bytes.h"
+#include "io/LocalFrame.h"
 #include "mesh/Texture.h"
+#include "scene/Axes.h"
+#include "scene/Edit.h"
 #include "vorion/support/Expected.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vorion::splat {
@@ -36,6 +41,15 @@ struct MeshWarning {
   std::string Where, What; ///< as of an Error
 };
 
+/// Triangles that a file has one after the other.
+struct MeshPart {
+  std::string File; ///< where they were read, empty if nowhere
+  /// Of the glTF node or the OBJ's object, printable; may be empty.
+  std::string Name;
+  std::size_t First = 0;  ///< the first of them in the mesh
+  std::size_t Number = 0; ///< and in the file, from 0
+};
+
 /// A corner of a polygon.
 struct MeshCorner {
   uint32_t Vertex = 0;
@@ -45,10 +59,10 @@ struct MeshCorner {
 
 /// Vertices in the world's units, with colours as pictures show them.
 struct Mesh {
-  std::string File;              ///< where it was read, empty if nowhere
-  std::vector<float> Positions;  ///< x, y, z of each vertex, finite
-  std::vector<float> Colors;     ///< red, green, blue, alpha of each, 0 to 1
-  std::vector<uint32_t> Corners; ///< three vertices of each triangle
+  std::vector<MeshPart> Parts{1}; ///< the first begins at triangle 0
+  std::vector<float> Positions;   ///< x, y, z of each vertex, finite
+  std::vector<float> Colors;      ///< red, green, blue, alpha of each, 0 to 1
+  std::vector<uint32_t> Corners;  ///< three vertices of each triangle
   /// Across and down the picture, 0 to 1 in it, for each corner; empty if no
   /// triangle has a texture.
   std::vector<float> TextureCoordinates;
@@ -65,6 +79,10 @@ struct Mesh {
   bool hasTextures() const { return !TextureCoordinates.empty(); }
   /// Whether a triangle's alpha is \p Mode.
   bool has(AlphaMode Mode) const;
+  /// Where \p Triangle is from.
+  const MeshPart &partOf(std::size_t Triangle) const;
+  /// Where the first triangle was read.
+  const std::string &file() const { return Parts.front().File; }
 
   /// Appends a vertex and returns its number.
   uint32_t addVertex(const std::array<float, 3> &Position,
@@ -72,9 +90,24 @@ struct Mesh {
   /// Appends a polygon as a fan of triangles about its first corner, which look
   /// like Materials[Look].
   void addPolygon(std::span<const MeshCorner> Polygon, uint32_t Look);
+  /// The triangles that are added next are of the node or object \p Name.
+  void beginPart(std::string_view Name);
   /// Appends the triangles of \p Other, which keep their order.
   void append(Mesh Other);
 };
+
+/// \name Other places of vertices, and normals that follow
+/// Computed in double and rounded once.
+/// @{
+void transform(Mesh &M, const Similarity &By);
+void changeAxes(Mesh &M, const AxesChange &Change);
+/// @}
+
+/// The triangles of \p First, then those of \p Second, in the frame with the
+/// origin \p Origin. Both may be null; then the result is.
+std::shared_ptr<const Mesh> joined(std::shared_ptr<const Mesh> First,
+                                   std::shared_ptr<const Mesh> Second,
+                                   const WorldPoint &Origin);
 
 /// Vertices and triangles that a mesh may have: numbers of both have 31 bits.
 inline constexpr std::size_t MaxMeshSize = std::size_t{1} << 31;
@@ -83,7 +116,7 @@ inline constexpr std::size_t MaxMeshSize = std::size_t{1} << 31;
 /// decides. Error: one line with the file and the place.
 Expected<Mesh> readMesh(const std::string &Path);
 
-/// \name The same of one format; \p Where is the file's path
+/// \name The triangles of one format; \p Where is the file's path
 /// @{
 Expected<Mesh> readObjMesh(const std::string &Where, Bytes File);
 Expected<Mesh> readPlyMesh(const std::string &Where, Bytes File);

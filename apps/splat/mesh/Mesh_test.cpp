@@ -45,6 +45,8 @@ TEST(ObjMesh, FacesOfAnySizeAndNumbering) {
                                            "usemtl\nf 1/1/1 2//1 3 4/1\n"
                                            "f -4 -3 -2\n"));
   ASSERT_TRUE(M) << M.error().What;
+  ASSERT_EQ(M->Parts.size(), 1U);
+  EXPECT_EQ(M->Parts[0].Name, "thing");
   EXPECT_EQ(M->vertices(), 4U);
   EXPECT_EQ(M->Corners, (std::vector<uint32_t>{0, 1, 2, 0, 2, 3, 0, 1, 2}));
   EXPECT_EQ(M->Colors[2], 0.5F);
@@ -157,6 +159,7 @@ TEST_F(ObjFiles, AMeshInAGlbIsReadAgain) {
   ASSERT_TRUE(M) << M.error().What;
   Mesh Twice = *M;
   Twice.append(*M);
+  Twice.Parts[1].Name = "the second";
   EXPECT_EQ(Twice.Corners[6], M->vertices());
   EXPECT_EQ(Twice.Materials[Twice.MaterialOf[2]].Picture, 1U);
   GltfWriter To;
@@ -167,6 +170,8 @@ TEST_F(ObjFiles, AMeshInAGlbIsReadAgain) {
   const auto Read = readGltfMesh("file", bytes(*File));
   ASSERT_TRUE(Read) << Read.error().What;
   ASSERT_EQ(Read->triangles(), 4U);
+  EXPECT_EQ(Read->partOf(1).Name, "mesh 0");
+  EXPECT_EQ(Read->partOf(2).Name, "the second");
   EXPECT_EQ(Read->TextureCoordinates, Twice.TextureCoordinates);
   EXPECT_EQ(Read->Normals, Twice.Normals);
   for (std::size_t I = 0; I < Twice.Corners.size(); ++I) {
@@ -185,6 +190,45 @@ TEST_F(ObjFiles, AMeshInAGlbIsReadAgain) {
     EXPECT_EQ(A.Alpha, B.Alpha);
     EXPECT_EQ(A.Sampling, B.Sampling);
   }
+}
+
+TEST_F(ObjFiles, TrianglesKeepTheirFileAndNumber) {
+  write("m.obj", std::string(Triangle) + "o a\no b\nf 1 2 3\nf 1 3 2\no c\n"
+                                         "f 3 2 1\no d\n");
+  const auto M = readMesh(Folder + "/m.obj");
+  ASSERT_TRUE(M) << M.error().What;
+  Mesh All = *M;
+  All.append(*M);
+  ASSERT_EQ(All.Parts.size(), 4U);
+  const MeshPart &Last = All.partOf(5);
+  EXPECT_EQ(Last.Name, "c");
+  EXPECT_EQ(Last.File, Folder + "/m.obj");
+  EXPECT_EQ(Last.First, 5U);
+  EXPECT_EQ(Last.Number, 2U);
+  EXPECT_EQ(All.partOf(4).Name, "b");
+  EXPECT_EQ(All.partOf(4).Number, 0U);
+}
+
+TEST_F(ObjFiles, PlacesChangeWithNormals) {
+  auto M = read(std::string(Triangle) + "f 1//1 2//1 3//1\n");
+  ASSERT_TRUE(M) << M.error().What;
+  // A quarter turn about x takes y to z.
+  transform(*M, {.Scale = 2,
+                 .Rotation = rotationOf({90, 0, 0}),
+                 .Translation = {0.5, 0, -8}});
+  for (std::size_t A = 0; A < 3; ++A) {
+    EXPECT_NEAR(M->Positions[6 + A], (std::array{2.5, 0.0, -6.0}[A]), 1e-6);
+    EXPECT_NEAR(M->Normals[A], (std::array{0.0, -2.0, 0.0}[A]), 1e-6);
+  }
+  changeAxes(*M, {.From = {1, 1, 1}, .To = {1, -1, -1}});
+  EXPECT_NEAR(M->Positions[8], 6, 1e-6);
+  EXPECT_NEAR(M->Normals[1], 2, 1e-6);
+  const auto First = std::make_shared<const Mesh>(*M);
+  EXPECT_EQ(joined(nullptr, nullptr, {}), nullptr);
+  EXPECT_EQ(joined(nullptr, First, {}), First);
+  const auto Both = joined(First, First, {0, 0, 4});
+  EXPECT_EQ(Both->triangles(), 2U);
+  EXPECT_NEAR(Both->Positions[8], 2, 1e-6);
 }
 
 TEST_F(ObjFiles, DamagedPicturesAreRefusedByName) {
@@ -282,6 +326,19 @@ TEST(PlyMesh, ListsOfFaces) {
                       "x\nproperty float y\nproperty float z\nend_header\n0 0 "
                       "0\n",
                       "file: no element face"));
+}
+
+TEST(PlyMesh, ATextureIsAWarning) {
+  std::string Text = std::string(PlyHead) +
+                     "property list uchar int vertex_indices\nend_header\n"
+                     "0 0 0 255 0 51\n1 0 0 0 0 0\n1 1 0 0 0 0\n3 0 1 2\n";
+  Text.insert(4, "comment TextureFile wood.png\ncomment made by hand\n");
+  const auto M = readPlyMesh("file", bytes(Text));
+  ASSERT_TRUE(M) << M.error().What;
+  ASSERT_EQ(M->Warnings.size(), 1U);
+  EXPECT_EQ(M->Warnings[0].Where, "file");
+  EXPECT_EQ(M->Warnings[0].What, "drawn without the texture wood.png, expected "
+                                 "an OBJ or glTF file with it");
 }
 
 std::string bigEndian(const std::string &Encoding) {

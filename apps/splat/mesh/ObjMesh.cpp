@@ -318,12 +318,12 @@ public:
 private:
   Expected<Success> line() {
     // What neither changes a triangle nor a colour.
-    static constexpr std::array<std::string_view, 30> Ignored{
-        "vp",   "l",     "p",        "o",        "g",         "s",
-        "mg",   "lod",   "bevel",    "usemap",   "maplib",    "deg",
-        "bmat", "step",  "cstype",   "curv",     "curv2",     "surf",
-        "parm", "trim",  "hole",     "scrv",     "sp",        "end",
-        "con",  "stech", "c_interp", "d_interp", "trace_obj", "shadow_obj"};
+    static constexpr std::array<std::string_view, 29> Ignored{
+        "vp",    "l",        "p",        "g",         "s",         "mg",
+        "lod",   "bevel",    "usemap",   "maplib",    "deg",       "bmat",
+        "step",  "cstype",   "curv",     "curv2",     "surf",      "parm",
+        "trim",  "hole",     "scrv",     "sp",        "end",       "con",
+        "stech", "c_interp", "d_interp", "trace_obj", "shadow_obj"};
     const std::string_view Key = L.Words[0];
     if (Key == "v")
       return vertex();
@@ -337,6 +337,10 @@ private:
       // Rhino writes one without a name.
       Current = L.Words.size() < 2 ? ObjMaterial{} : Known.use(L);
       Made.clear();
+      return Success{};
+    }
+    if (Key == "o") {
+      Result.beginPart(L.Words.size() < 2 ? "" : L.rest(1));
       return Success{};
     }
     if (Key == "mtllib")

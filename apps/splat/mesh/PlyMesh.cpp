@@ -1,11 +1,14 @@
 // PLY: the elements `vertex`, with or without colours and normals, and `face`.
 #include "io/PlyFile.h"
 #include "mesh/Mesh.h"
+#include "vorion/support/Letters.h"
+#include "vorion/support/Printable.h"
 
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <string_view>
 
 namespace vorion::splat {
 namespace {
@@ -67,6 +70,15 @@ Expected<Mesh> readPlyMesh(const std::string &Where, Bytes Content) {
                                   Vertex->find("nz")};
   Mesh M;
   M.Materials.emplace_back();
+  // As MeshLab names pictures.
+  constexpr std::string_view Picture = "TextureFile ";
+  for (const std::string &Comment : File->header().Comments)
+    if (const std::string_view Text = trimmed(Comment);
+        Text.starts_with(Picture))
+      M.Warnings.push_back(
+          {Where, fmt::format("drawn without the texture {}, expected an OBJ "
+                              "or glTF file with it",
+                              printable(Text.substr(Picture.size())))});
   for (std::size_t I = 0; I < Vertex->Count; ++I) {
     const Bytes Row = File->row(*Vertex, I);
     std::array<float, 3> Position{};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace vorion::splat {
 namespace {
@@ -87,31 +88,48 @@ double fromLinear(double Linear) {
                              : 1.055 * std::pow(Linear, 1 / 2.4) - 0.055;
 }
 
+static Expected<Success> checkSize(const std::string &Where, std::size_t Width,
+                                   std::size_t Height) {
+  constexpr std::size_t MostSide = std::size_t{1} << (MaxTextureLevels - 1);
+  // The other levels have a third of the first one's texels.
+  if (std::max(Width, Height) > MostSide || Width * Height > MaxTexels / 4 * 3)
+    return Error{Where,
+                 fmt::format("a texture of {}x{} texels, expected sides "
+                             "of at most {} and at most {} in all",
+                             Width, Height, MostSide, MaxTexels / 4 * 3)};
+  return Success{};
+}
+
+Expected<Texture> makeTexture(const std::string &Where, std::size_t Width,
+                              std::size_t Height,
+                              std::vector<uint32_t> Texels) {
+  if (auto Fits = checkSize(Where, Width, Height); !Fits)
+    return Fits.error();
+  Texture T;
+  T.Levels.push_back({Width, Height, 0});
+  T.Texels = std::move(Texels);
+  while (T.Levels.back().Width > 1 || T.Levels.back().Height > 1)
+    appendLevel(T);
+  return T;
+}
+
 Expected<Texture> decodeTexture(const std::string &Where, Bytes File) {
   const auto Size = photoSize(Where, File);
   if (!Size)
     return Size.error();
-  const auto Texels = static_cast<std::size_t>(Size->Width) *
-                      static_cast<std::size_t>(Size->Height);
-  constexpr std::size_t MostSide = std::size_t{1} << (MaxTextureLevels - 1);
-  // The other levels have a third of the first one's texels.
-  if (std::max(Size->Width, Size->Height) > static_cast<int>(MostSide) ||
-      Texels > MaxTexels / 4 * 3)
-    return Error{Where, fmt::format("a texture of {}x{} texels, expected sides "
-                                    "of at most {} and at most {} in all",
-                                    Size->Width, Size->Height, MostSide,
-                                    MaxTexels / 4 * 3)};
+  if (auto Fits = checkSize(Where, static_cast<std::size_t>(Size->Width),
+                            static_cast<std::size_t>(Size->Height));
+      !Fits)
+    return Fits.error();
   const auto P = decodePhoto(Where, File);
   if (!P)
     return P.error();
-  Texture T;
-  T.File.assign(File.begin(), File.end());
-  T.Levels.push_back({P->Width, P->Height, 0});
-  T.Texels.reserve(Texels + Texels / 3 + 2 * MaxTextureLevels);
-  for (std::size_t I = 0; I < P->pixels(); ++I)
-    T.Texels.push_back(load<uint32_t>(P->Rgba, 4 * I));
-  while (T.Levels.back().Width > 1 || T.Levels.back().Height > 1)
-    appendLevel(T);
+  std::vector<uint32_t> Texels(P->pixels());
+  for (std::size_t I = 0; I < Texels.size(); ++I)
+    Texels[I] = load<uint32_t>(P->Rgba, 4 * I);
+  auto T = makeTexture(Where, P->Width, P->Height, std::move(Texels));
+  if (T)
+    T->File.assign(File.begin(), File.end());
   return T;
 }
 

@@ -45,8 +45,12 @@ inline constexpr std::size_t MaxTextureLevels = 16;
 /// Texels of all levels of a texture.
 inline constexpr std::size_t MaxTexels = std::size_t{1} << 28;
 
-/// Decodes the PNG, JPEG or WebP \p File, and averages its levels: in linear
-/// light, by area, each from the one before, rounded to 8 bits.
+/// Of the \p Texels of the first level, averages the others: in linear light,
+/// by area, each from the one before, rounded to 8 bits. Error: too large.
+Expected<Texture> makeTexture(const std::string &Where, std::size_t Width,
+                              std::size_t Height, std::vector<uint32_t> Texels);
+
+/// The same for the PNG, JPEG or WebP \p File.
 Expected<Texture> decodeTexture(const std::string &Where, Bytes File);
 
 /// \p Stored as sRGB has it, 0 to 1, in linear light, and back.

@@ -337,7 +337,7 @@ void Pipeline::sortLayers() {
   Launch.read("most layers", &To.MostLayers, To.TileLayers, 4,
               4 * uint64_t{Current.tiles()});
   if (!Launch.failure() && To.MostLayers > MOST_LAYERS)
-    Launch.fail({Options.Surface->File,
+    Launch.fail({Options.Surface->file(),
                  fmt::format("a pixel has {} transparent surfaces, expected at "
                              "most {}",
                              To.MostLayers, static_cast<int>(MOST_LAYERS)),

@@ -128,7 +128,7 @@ Expected<Json> drawnJson(const Camera &View, const RenderOptions &O,
   Json Total{{"seconds", T.Seconds}};
   if (T.Counters)
     Total["counters"] = json(*T.Counters);
-  return Json{{"view", View.Name},
+  Json Report{{"view", View.Name},
               {"resolution", {View.Width, View.Height}},
               {"rules", name(O.Convention)},
               {"support", name(O.Reach)},
@@ -168,6 +168,12 @@ Expected<Json> drawnJson(const Camera &View, const RenderOptions &O,
                 {"device_bytes", Result.DeviceBytes}}},
               {"stages", stagesJson(Result.Stages)},
               {"total", Total}};
+  if (const Mesh *M = O.Surface.get())
+    Report["mesh"] = {{"vertices", M->vertices()},
+                      {"triangles", M->triangles()},
+                      {"textures", M->Textures.size()},
+                      {"light", O.Light ? Json(*O.Light) : Json()}};
+  return Report;
 }
 
 Expected<Json> jsonReport(const RenderRecord &R) {
@@ -197,13 +203,7 @@ Expected<Json> jsonReport(const RenderRecord &R) {
        {"result_fnv1a64", resultHash(R)}});
   Report.update(*Drawn);
   if (const Mesh *M = R.Options.Surface.get())
-    Report["mesh"] = {{"file", M->File},
-                      {"vertices", M->vertices()},
-                      {"triangles", M->triangles()},
-                      {"textures", M->Textures.size()},
-                      {"light", R.Options.Light
-                                    ? nlohmann::ordered_json(*R.Options.Light)
-                                    : nlohmann::ordered_json()}};
+    Report["mesh"]["file"] = M->file();
   if (R.Back) {
     auto Hash = hashFile(R.Back->Upstream);
     if (!Hash)

@@ -459,7 +459,11 @@ Expected<Success> GltfData::walk(std::size_t Node, const GltfMatrix &Parent,
       if (!Mesh)
         return wrong(fmt::format(
             "node {} has an invalid mesh, expected its index", Now.Node));
-      To.push_back({*Mesh, Here});
+      const auto Name = J.find("name");
+      To.push_back(
+          {*Mesh,
+           Name != J.end() && Name->is_string() ? Name->get<std::string>() : "",
+           Here});
     }
     const auto Children = J.find("children");
     if (Children == J.end())

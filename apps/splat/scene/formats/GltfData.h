@@ -31,6 +31,7 @@ GltfMatrix product(const GltfMatrix &A, const GltfMatrix &B);
 /// A node with a mesh, and its world transform.
 struct GltfInstance {
   std::size_t Mesh = 0;
+  std::string Name; ///< of the node; may be empty
   GltfMatrix Transform{};
 };
 

@@ -74,11 +74,13 @@ std::size_t GltfWriter::addIndices(std::span<const uint32_t> Numbers) {
                     Numbers.size());
 }
 
-void GltfWriter::addNode(Json Primitives) {
+void GltfWriter::addNode(Json Primitives, const std::string &Name) {
   const std::size_t Mesh =
       add("meshes", {{"primitives", std::move(Primitives)}});
-  const std::size_t Node = add("nodes", {{"mesh", Mesh}});
-  Document["scenes"][0]["nodes"].push_back(Node);
+  Json Node{{"mesh", Mesh}};
+  if (!Name.empty())
+    Node["name"] = Name;
+  Document["scenes"][0]["nodes"].push_back(add("nodes", std::move(Node)));
 }
 
 void GltfWriter::addGaussians(const Scene &S) {

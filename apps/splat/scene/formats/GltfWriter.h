@@ -31,8 +31,8 @@ public:
   /// An object of the list \p Key.
   std::size_t add(const char *Key, Json Object);
   void useExtension(std::string_view Name, bool IsRequired = false);
-  /// A node of the scene with a mesh of \p Primitives.
-  void addNode(Json Primitives);
+  /// A node of the scene with a mesh of \p Primitives; \p Name may be empty.
+  void addNode(Json Primitives, const std::string &Name = "");
   void addGaussians(const Scene &S);
 
   /// The file. Error: more than the 4 GiB of a `.glb`.
