@@ -7,13 +7,21 @@ namespace vorion::reference {
 namespace {
 
 template <typename Real>
-std::vector<Contributor<Real>> walked(const TileWalk<Real> &Walk,
-                                      const std::vector<Candidate<Real>> &List,
-                                      int X, int Y) {
+std::vector<Contributor<Real>>
+walked(const TileWalk<Real> &Walk, const std::vector<Candidate<Real>> &List,
+       int X, int Y, const HidingKeys &Hidden = {},
+       std::span<const Layer<Real>> Layers = {}) {
   std::vector<Contributor<Real>> Found;
-  Walk.pixel(List, X, Y, [&](const Contribution<Real> &C) {
-    Found.push_back({List[C.Entry].Index, C.Alpha, C.Alpha * C.T});
-  });
+  Walk.pixel(
+      List, X, Y,
+      [&](const Contribution<Real> &C) {
+        Found.push_back({List[C.Entry].Index, C.Alpha, C.Alpha * C.T});
+      },
+      Hidden, Layers,
+      [&](const Layer<Real> &L, Real T) {
+        Found.push_back({static_cast<int32_t>(&L - Layers.data()), L.Alpha,
+                         L.Alpha * T, /*IsLayer=*/true});
+      });
   return Found;
 }
 
@@ -22,11 +30,13 @@ std::vector<Contributor<Real>> walked(const TileWalk<Real> &Walk,
 template <typename Real>
 std::vector<Contributor<Real>>
 contributors(const std::vector<Splat<Real>> &Splats, int Width, int Height,
-             const Options &O, int X, int Y) {
+             const Options &O, int X, int Y, const Surface<Real> *Behind) {
   const TileWalk<Real> Walk(Splats, Width, Height, O);
   const TileGrid Grid(O.TileSize, Width, Height);
-  return walked(
-      Walk, Walk.candidates(Grid.index(X / O.TileSize, Y / O.TileSize)), X, Y);
+  const auto List = Walk.candidates(Grid.index(X / O.TileSize, Y / O.TileSize));
+  return Behind ? walked(Walk, List, X, Y, hidingKeys(*Behind, 0, O.DepthBits),
+                         layersIn(*Behind, 0))
+                : walked(Walk, List, X, Y);
 }
 
 template <typename Real>
@@ -49,10 +59,10 @@ contributorsOfAll(const std::vector<Splat<Real>> &Splats, int Width, int Height,
 
 template std::vector<Contributor<float>>
 contributors(const std::vector<Splat<float>> &, int, int, const Options &, int,
-             int);
+             int, const Surface<float> *);
 template std::vector<Contributor<double>>
 contributors(const std::vector<Splat<double>> &, int, int, const Options &, int,
-             int);
+             int, const Surface<double> *);
 template std::vector<std::vector<Contributor<float>>>
 contributorsOfAll(const std::vector<Splat<float>> &, int, int, const Options &);
 template std::vector<std::vector<Contributor<double>>>

@@ -50,10 +50,8 @@ Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
               Color += List[C.Entry].Color * (C.Alpha * C.T);
               ++TileBlends;
             },
-            IsCovered ? hidingKeys(*Behind, At, O.DepthBits) : HidingKeys{},
-            Behind && !Behind->Layers.empty()
-                ? std::span<const Layer<Real>>(Behind->Layers[At])
-                : std::span<const Layer<Real>>(),
+            Behind ? hidingKeys(*Behind, At, O.DepthBits) : HidingKeys{},
+            Behind ? layersIn(*Behind, At) : std::span<const Layer<Real>>(),
             [&](const Layer<Real> &L, Real T) {
               Color += L.Color * (L.Alpha * T);
             });

@@ -146,12 +146,20 @@ struct HidingKeys {
   uint32_t From = ~0U, Nearest = ~0U, Farthest = ~0U;
 };
 
-/// Of the surface in pixel \p At, where there is one.
+/// Of the surface in pixel \p At.
 template <typename Real>
 HidingKeys hidingKeys(const Surface<Real> &S, std::size_t At, int DepthBits) {
   const double Depth = S.Depths[At], Slack = S.Slack.empty() ? 0 : S.Slack[At];
+  if (!std::isfinite(Depth))
+    return {};
   return {orderKey(Depth, DepthBits), orderKey(Depth - Slack, DepthBits),
           orderKey(Depth + Slack, DepthBits)};
+}
+
+/// The transparent surfaces in pixel \p At.
+template <typename Real>
+std::span<const Layer<Real>> layersIn(const Surface<Real> &S, std::size_t At) {
+  return S.Layers.empty() ? std::span<const Layer<Real>>() : S.Layers[At];
 }
 
 /// The final state of a pixel.

@@ -1,9 +1,11 @@
 #include "commands/CameraArguments.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
+#include "commands/MeshArguments.h"
 #include "commands/SceneArguments.h"
 #include "io/Cameras.h"
 #include "picture/SceneUnit.h"
+#include "render/MeshRules.h"
 #include "view/Server.h"
 #include "view/Session.h"
 #include "vorion/support/CommandLine.h"
@@ -26,6 +28,7 @@ namespace {
 struct ViewArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
+  MeshArguments Mesh;
   std::string Device, Kernels, Size;
   int Port = 0;
 };
@@ -69,14 +72,21 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
+  const auto OwnMesh = loadOwnMesh(A.Scene, *File);
+  if (!OwnMesh)
+    return OwnMesh.error();
+  auto AddedMesh = loadAddedMesh(A.Mesh);
+  if (!AddedMesh)
+    return AddedMesh.error();
   auto Cameras = allCameras(A.Cameras, *File);
   if (!Cameras)
     return Cameras.error();
   S.ThroughLens = std::ranges::any_of(
       *Cameras, [](const Camera &C) { return !C.Optics.isPinhole(); });
-  // Of a capture, the page may switch to the lenses that photographs have.
+  // Of a capture, the page may switch to the lenses that photographs have, but
+  // these show no mesh.
   CameraArguments OfPhotographs = A.Cameras;
-  OfPhotographs.Distorted = true;
+  OfPhotographs.Distorted |= !*OwnMesh && !*AddedMesh;
   auto Photographs = allCameras(OfPhotographs, *File);
   S.Cameras = std::move(Photographs ? *Photographs : *Cameras);
   // Who looks around does so at one moment.
@@ -93,7 +103,22 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
                    .Words = wordsOf(A.Scene),
                    .File = std::move(*File),
                    .Up = Up,
-                   .Near = Near};
+                   .Near = Near,
+                   .OwnMesh = *OwnMesh,
+                   .AddedMesh = {.Name = A.Mesh.File,
+                                 .Path = A.Mesh.File,
+                                 .Triangles = std::move(*AddedMesh)},
+                   .Light = A.Mesh.Light};
+  joinMeshes(First);
+  if (First.Light && !First.Surface)
+    return lightWithoutMesh();
+  for (const Camera &C : S.Cameras) {
+    RenderOptions O;
+    O.Surface = First.Surface;
+    O.Optics = C.Optics.Model;
+    if (auto Checked = checkMeshCamera(O, A.Cameras.File); !Checked)
+      return Checked;
+  }
   const auto Shown = Session::open(std::move(S), std::move(First));
   if (!Shown)
     return Shown.error();
@@ -118,7 +143,9 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
 Runner addView(CLI::App &App) {
   auto A = std::make_shared<ViewArguments>();
   addSceneOptions(App, A->Scene);
+  A->Scene.KeepsMeshes = true;
   addCameraOptions(App, A->Cameras, /*Several=*/false);
+  addMeshOptions(App, A->Mesh);
   App.add_option("--port", A->Port,
                  "TCP port on 127.0.0.1 (default 0: any free port)")
       ->check(isBetween(0, 65535));

@@ -2,6 +2,7 @@
 
 #include "io/CameraLens.h"
 #include "picture/TailRule.h"
+#include "render/MeshRules.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -150,6 +151,12 @@ std::optional<Heat> heatOf(Layer L) {
   return Found == Heats.end() ? std::nullopt : std::optional(*Found);
 }
 
+bool isLayerOf(Layer L, const ShownScene &S) {
+  if (!S.Surface)
+    return true;
+  return L == Layer::Depth ? !S.Surface->has(AlphaMode::Blend) : !heatOf(L);
+}
+
 Expected<ViewRequest> parseViewRequest(std::string_view Text) {
   // A request is small; its limits keep what is no page's from taking memory.
   const JsonLimits Limits{
@@ -219,7 +226,23 @@ RenderOptions optionsOf(const ViewRequest &R, const ShownScene &Of) {
   // The knob's values are rules.
   O.PixelUnit = *parseTailRule(S.value(KnobId::PixelUnit));
   O.SkipSaturated = S.value(KnobId::SkipSaturated) == "on";
+  O.Surface = Of.Surface;
+  O.Light = Of.Light;
+  O.KeepVisible = Of.Surface != nullptr;
   return O;
+}
+
+Expected<Success> checkMesh(const ViewRequest &R, const ShownScene &Of) {
+  const RenderOptions O = optionsOf(R, Of);
+  if (heatOf(R.Shown) && !isLayerOf(R.Shown, Of))
+    return Error{O.Surface->file(),
+                 fmt::format("the layer {} shows one command per tile, "
+                             "expected no mesh",
+                             name(R.Shown)),
+                 ExitCode::Usage};
+  if (auto Checked = checkMeshCamera(O, ""); !Checked)
+    return Checked;
+  return checkTransparency(O, R.Shown == Layer::Depth);
 }
 
 } // namespace vorion::splat

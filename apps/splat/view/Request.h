@@ -39,6 +39,9 @@ inline constexpr std::array Layers{
 std::string_view name(Layer L);
 /// The heat map of the layer, if it is one.
 std::optional<Heat> heatOf(Layer L);
+/// Whether \p L can be shown of \p S: heat maps have no mesh, and depths no
+/// transparent one.
+bool isLayerOf(Layer L, const ShownScene &S);
 
 struct ViewRequest {
   Camera View;
@@ -72,5 +75,8 @@ bool isSuperseded(const Error &E);
 
 /// The options of \p R for the scene \p Of.
 RenderOptions optionsOf(const ViewRequest &R, const ShownScene &Of);
+
+/// Whether the mesh of \p Of, if it has one, can be shown as \p R has it.
+Expected<Success> checkMesh(const ViewRequest &R, const ShownScene &Of);
 
 } // namespace vorion::splat

@@ -34,10 +34,12 @@ Expected<std::unique_ptr<PageServer>> listenFor(int Port, Session &Shown) {
                   : refusalOf(Answer.error());
   };
   const auto Pixel = [](Session &S, const ViewRequest &R, const HttpCall &) {
-    return jsonAnswer(S.pixel(R));
+    const auto Answer = S.pixel(R);
+    return Answer ? jsonAnswer(*Answer) : refusalOf(Answer.error());
   };
   const auto Command = [](Session &S, const ViewRequest &R, const HttpCall &) {
-    return jsonAnswer(S.command(R));
+    const auto Answer = S.command(R);
+    return Answer ? jsonAnswer(*Answer) : refusalOf(Answer.error());
   };
   const auto Picking = [&Shown](auto Do) {
     return [&Shown, Do](const HttpCall &C) {

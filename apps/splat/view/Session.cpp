@@ -5,12 +5,14 @@
 #include "effects/Registry.h"
 #include "io/CameraLens.h"
 #include "io/Metrics.h"
+#include "mesh/Mesh.h"
 #include "picture/SceneUnit.h"
 #include "render/Explain.h"
 #include "render/Pictures.h"
 #include "scene/SceneWriter.h"
 #include "scene/Statistics.h"
 #include "view/Paint.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
@@ -46,6 +48,53 @@ Json effectsOf(const EffectPlan &Plan) {
   return All;
 }
 
+/// Of the written format that has triangles.
+constexpr std::string_view MeshEnding = ".glb";
+
+/// The triangle \p T with its place in the file and the world.
+Json triangleOf(const PixelTriangle &T, const ShownScene &S) {
+  const Mesh &M = *S.Surface;
+  const MeshPart &Part = M.partOf(T.Triangle);
+  Json Corners = Json::array();
+  for (std::size_t K = 0; K < 3; ++K) {
+    std::array<double, 3> World = S.File.Gaussians.Origin;
+    for (std::size_t A = 0; A < 3; ++A)
+      World[A] += M.Positions[3 * M.Corners[3 * T.Triangle + K] + A];
+    Corners.push_back(World);
+  }
+  return {{"file", std::filesystem::path(Part.File).filename().string()},
+          {"part", Part.Name},
+          {"number", Part.Number + T.Triangle - Part.First},
+          {"in_front", T.InFront},
+          {"weight", T.Weight},
+          {"alpha", T.Alpha},
+          {"depth", T.Depth},
+          {"color", T.Color},
+          {"corners", Corners}};
+}
+
+/// The mesh of the file \p Path, which a page sent as \p Name, and which is
+/// removed on an error. Prints what is left out.
+Expected<std::shared_ptr<const Mesh>> readSent(const std::string &Path,
+                                               const std::string &Name) {
+  // Nobody else knows the file by its path.
+  const auto ByName = [&](std::string Where) {
+    return Where.starts_with(Path) ? Name + Where.substr(Path.size()) : Where;
+  };
+  auto Read = readMesh(Path);
+  if (!Read) {
+    std::error_code Ignored;
+    std::filesystem::remove(Path, Ignored);
+    return Error{ByName(Read.error().Where), Read.error().What,
+                 Read.error().Code};
+  }
+  for (const MeshWarning &W : Read->Warnings)
+    printDiagnostic("splat", "warning", ByName(W.Where), W.What);
+  for (MeshPart &Part : Read->Parts)
+    Part.File = Name;
+  return std::make_shared<const Mesh>(std::move(*Read));
+}
+
 /// What the device did for a picture, on this computer.
 Json factsOf(const DrawnView &D) {
   Json Stages = Json::array();
@@ -75,19 +124,19 @@ Json timeOf(const MachineTime &T) {
           {"stage_cycles", std::move(Stages)}};
 }
 
-/// The point of the scene that the pixel of \p R shows, by its weighted mean
-/// depth; null where nothing is.
-Json pointOf(const DepthMap &D, const ViewRequest &R) {
+/// The point of the scene that the pixel of \p R shows, by the mean of its
+/// depths: \p Sum of depths by weights, over that of the weights. Null where
+/// nothing is.
+Json pointOf(double Sum, double Weights, const ViewRequest &R) {
   const Camera &C = R.View;
-  const auto At = static_cast<std::size_t>(R.Y) * C.Width + R.X;
   const double U = (R.X + 0.5 - C.Cx) / C.Fx, V = (R.Y + 0.5 - C.Cy) / C.Fy;
   const LensModel &Lens = *C.Optics.Model;
   const auto Ray =
       Lens.IsParallel ? Direction{0, 0, 1} : C.Optics.direction(U, V);
-  constexpr float LeastAlpha = 1.0F / 255;
-  if (!Ray || D.Alpha[At] < LeastAlpha)
+  constexpr double LeastWeight = 1.0 / 255;
+  if (!Ray || Weights < LeastWeight)
     return nullptr;
-  const double Depth = double(D.Depth[At]) / double(D.Alpha[At]);
+  const double Depth = Sum / Weights;
   const double Along = Lens.byDistance() ? Depth : Depth / (*Ray)[2];
   const Vector Start = Lens.IsParallel ? Vector{U, V, 0} : Vector{};
   Vector Point = C.Position;
@@ -130,6 +179,11 @@ std::vector<std::string> deviceWords(const Session::Setup &S) {
   if (!S.Kernels.empty())
     Words.insert(Words.end(), {"--kernels", S.Kernels});
   return Words;
+}
+
+/// The mesh in the pixels of \p R; null without one.
+const VisibleMesh *seenIn(const RenderResult &R) {
+  return R.MeshShown ? &*R.MeshShown : nullptr;
 }
 
 bool isSameView(const ViewRequest &A, const ViewRequest &B) {
@@ -178,10 +232,21 @@ Expected<Success> Session::replace(std::string Name,
   const auto *First = reinterpret_cast<const std::byte *>(Content.data());
   auto File = parseScene(Name, {First, Content.size()}, Settings.Reading);
   if (!File)
-    return File.error();
-  const std::string Path = Clock.sceneFile(scene()->Number + 1);
+    return isMeshFile({First, Content.size()})
+               ? replaceMesh(std::move(Name), Content)
+               : Expected<Success>(File.error());
+  // Written anew after edits, it needs a format that has meshes.
+  const std::string Path =
+      Clock.sceneFile(scene()->Number + 1, File->Meshes > 0 ? ".glb" : "");
   if (auto Written = writeFileAtomically(Path, Content); !Written)
     return Written;
+  std::shared_ptr<const Mesh> OwnMesh;
+  if (File->Meshes > 0) {
+    auto Read = readSent(Path, Name);
+    if (!Read)
+      return Read.error();
+    OwnMesh = std::move(*Read);
+  }
   const SceneFocus Focus = focusOf(*File);
   const auto [Width, Height] = Settings.Size.value_or(std::pair(960, 544));
   Camera Found =
@@ -189,24 +254,56 @@ Expected<Success> Session::replace(std::string Name,
   std::optional<float> Near;
   prepareToDraw(File->Gaussians, {Found}, Rules::Inria, Near);
   Opened = nullptr;
-  change({.Name = std::move(Name),
-          .Path = Path,
-          .Words = Settings.ReadingWords,
-          .IsTemporary = true,
-          .File = std::move(*File),
-          .Up = Focus.Up,
-          .Found = std::move(Found),
-          .Near = Near});
+  ShownScene Next{.Name = std::move(Name),
+                  .Path = Path,
+                  .Words = Settings.ReadingWords,
+                  .IsTemporary = true,
+                  .File = std::move(*File),
+                  .Up = Focus.Up,
+                  .Found = std::move(Found),
+                  .Near = Near,
+                  .OwnMesh = std::move(OwnMesh),
+                  .Light = scene()->Light};
+  joinMeshes(Next);
+  change(std::move(Next));
   return Success{};
 }
 
-/// Shows \p Next, and removes the file of the scene before.
+/// Requires ReplaceLock.
+Expected<Success> Session::replaceMesh(std::string Name,
+                                       const std::string &Content) {
+  const auto S = scene();
+  ShownMesh Added{.Name = std::move(Name),
+                  .Path = Clock.sceneFile(S->Number + 1, "-mesh"),
+                  .IsTemporary = true};
+  if (auto Written = writeFileAtomically(Added.Path, Content); !Written)
+    return Written;
+  auto Read = readSent(Added.Path, Added.Name);
+  if (!Read)
+    return Read.error();
+  Added.Triangles = std::move(*Read);
+  const auto With = [&Added](ShownScene Of) {
+    Of.AddedMesh = Added;
+    joinMeshes(Of);
+    return Of;
+  };
+  if (Opened)
+    Opened = std::make_shared<const ShownScene>(With(*Opened));
+  change(With(*S));
+  return Success{};
+}
+
+/// Shows \p Next, and removes the files of the scene before that it has not.
 void Session::change(ShownScene Next) {
   const auto Before = scene();
   show(std::move(Next));
+  const auto Now = scene();
   std::error_code Ignored; // it may be needed by nobody yet
-  if (Before->IsTemporary)
+  if (Before->IsTemporary && Before->Path != Now->Path)
     std::filesystem::remove(Before->Path, Ignored);
+  if (Before->AddedMesh.IsTemporary &&
+      Before->AddedMesh.Path != Now->AddedMesh.Path)
+    std::filesystem::remove(Before->AddedMesh.Path, Ignored);
 }
 
 Expected<Success> Session::edit(const PickedRequest &R) {
@@ -255,7 +352,7 @@ Expected<Success> Session::edit(const PickedRequest &R) {
   keepOnly(Next.File.Gaussians,
            [this](std::size_t I) { return RemovedBy[I] == 0; });
   // The file that is written, if it is needed, says how it is drawn.
-  Next.Path = Clock.sceneFile(S->Number + 1);
+  Next.Path = Clock.sceneFile(S->Number + 1, Next.OwnMesh ? ".glb" : "");
   Next.Words.clear();
   Next.IsTemporary = true;
   Next.Edits = Edits;
@@ -290,9 +387,15 @@ Expected<std::string> Session::saved(const std::string &Name) {
                              fmt::join(writtenEndings(), ", ")),
                  ExitCode::Usage};
   const auto S = scene();
-  const std::string Path =
-      fmt::format("{}-saved-{}-{}", Clock.sceneFile(S->Number), ++Saves,
-                  std::filesystem::path(Name).filename().string());
+  if (S->OwnMesh && !Name.ends_with(MeshEnding))
+    return Error{"",
+                 fmt::format("{}: the format has no triangles, which the "
+                             "scene's file has, expected {}",
+                             printable(Name), MeshEnding),
+                 ExitCode::Usage};
+  const std::string Path = Clock.sceneFile(
+      S->Number, fmt::format("-saved-{}-{}", ++Saves,
+                             std::filesystem::path(Name).filename().string()));
   if (auto Done = writeShown(Path, *S); !Done)
     return Done.error();
   const auto Bytes = readFile(Path);
@@ -308,15 +411,18 @@ std::string Session::describe() const {
   const auto S = scene();
   const Scene &Gaussians = S->File.Gaussians;
   Json Knobs = Json::array(), Cameras = Json::array(), Names = Json::array();
+  const bool HasLayers = S->Surface && S->Surface->has(AlphaMode::Blend);
   for (const Knob &K : allKnobs())
-    Knobs.push_back({{"name", K.Name}, {"values", K.Values}});
+    if (K.Id != KnobId::ZTiles || !HasLayers)
+      Knobs.push_back({{"name", K.Name}, {"values", K.Values}});
   if (S->Found)
     Cameras.push_back(cameraJson(*S->Found));
   else
     for (const Camera &C : Settings.Cameras)
       Cameras.push_back(cameraJson(C));
   for (const Layer L : Layers)
-    Names.push_back(name(L));
+    if (isLayerOf(L, *S))
+      Names.push_back(name(L));
   Json Box = Json::array();
   if (Gaussians.size() != 0) {
     const SceneStatistics Of = statisticsOf(Gaussians);
@@ -333,11 +439,12 @@ std::string Session::describe() const {
       Json{{"name", S->Name},
            {"number", S->Number},
            {"edits", S->Edits},
-           {"endings", writtenEndings()},
+           {"endings", S->OwnMesh ? std::vector{MeshEnding} : writtenEndings()},
            {"most_bytes", LargestScene},
            {"format", splat::name(S->File.Format)},
            {"gaussians", Gaussians.size()},
            {"sh_degree", Gaussians.ShDegree},
+           {"triangles", S->Surface ? S->Surface->triangles() : 0},
            {"box", Box},
            {"up", S->Up},
            {"device", Dev.name()},
@@ -355,16 +462,21 @@ std::string Session::number() const {
   return jsonText(Json{{"scene", scene()->Number}});
 }
 
-std::string Session::command(const ViewRequest &R) const {
+Expected<std::string> Session::command(const ViewRequest &R) const {
   const auto S = scene();
+  if (auto Checked = checkMesh(R, *S); !Checked)
+    return Checked.error();
   const std::string Stem = std::filesystem::path(S->Name).stem().string(),
                     Base = Stem + "-view";
   // Who has dropped a scene knows where its file is. An edited one has the name
   // under which the page saves it.
-  const std::string File = S->Edits != 0    ? Stem + "-edited.ply"
+  const std::string Edited =
+      Stem + "-edited" + (S->OwnMesh ? std::string(MeshEnding) : ".ply");
+  const std::string File = S->Edits != 0    ? Edited
                            : S->IsTemporary ? S->Name
                                             : S->Path;
-  std::vector<std::string> Words = Clock.words(File, *S, R, Base + ".json");
+  std::vector<std::string> Words =
+      Clock.words(File, S->AddedMesh.Name, *S, R, Base + ".json");
   if (heatOf(R.Shown))
     Words.insert(Words.end(), {"--heat-map", Base});
   if (R.Shown == Layer::Depth)
@@ -391,6 +503,8 @@ Expected<GaussianBuffers> Session::uploaded(Launcher &L, const RenderPlan &Plan,
   Uploaded = 0;
   L.beginStage(Stage::Upload);
   OnDevice = uploadGaussians(L, S.File.Gaussians, Plan.Effects);
+  if (S.Surface)
+    OnDevice.Surface = uploadMesh(L, *S.Surface, Plan.Effects);
   activate(L, Plan, OnDevice);
   if (L.failure())
     return *L.failure();
@@ -447,6 +561,8 @@ std::shared_ptr<const DrawnView> Session::findDrawn(const ViewRequest &R,
 Expected<std::shared_ptr<const DrawnView>>
 Session::drawn(const ViewRequest &R,
                const std::shared_ptr<const ShownScene> &S) {
+  if (auto Checked = checkMesh(R, *S); !Checked)
+    return Checked.error();
   const std::lock_guard Held(DeviceLock);
   if (auto Old = findDrawn(R, S->Number))
     return Old;
@@ -480,7 +596,7 @@ Expected<ViewAnswer> Session::frame(const ViewRequest &R, const Asker &From) {
       P = paintHeat((*Time)->Tiles, *Heat, R.View.Width, R.View.Height);
   }
   if (R.Compare) {
-    const auto Judged = Reference.picture(S, R.View, GiveUp);
+    const auto Judged = Reference.picture(S, R.View, seenIn(Result), GiveUp);
     if (!Judged)
       return Judged.error();
     A.Facts["error"] = errorOf(Result.Picture, **Judged);
@@ -491,7 +607,11 @@ Expected<ViewAnswer> Session::frame(const ViewRequest &R, const Asker &From) {
     P = paintPicture(Result.Picture);
   else if (R.Shown == Layer::Depth) {
     P = paintDepth(*Result.Depths);
-    A.Facts["point"] = pointOf(*Result.Depths, R);
+    const auto At =
+        static_cast<std::size_t>(R.Y) * static_cast<std::size_t>(R.View.Width) +
+        static_cast<std::size_t>(R.X);
+    A.Facts["point"] =
+        pointOf(Result.Depths->Depth[At], Result.Depths->Alpha[At], R);
   }
   A.Facts["layer"] = name(R.Shown);
   A.Facts["scale"] = {{"low", P.Low},
@@ -502,13 +622,34 @@ Expected<ViewAnswer> Session::frame(const ViewRequest &R, const Asker &From) {
   return A;
 }
 
-std::string Session::pixel(const ViewRequest &R) {
+Expected<std::string> Session::pixel(const ViewRequest &R) {
   const auto S = scene();
-  Json Gaussians = Json::array();
+  ViewRequest Plain = R;
+  Plain.Shown = Layer::Picture;
+  std::shared_ptr<const DrawnView> D;
+  if (S->Surface) {
+    // The machine says which triangles are seen.
+    auto Drawn = drawn(Plain, S);
+    if (!Drawn)
+      return Drawn.error();
+    D = std::move(*Drawn);
+  } else {
+    const std::lock_guard Held(DeviceLock);
+    D = findDrawn(Plain, S->Number);
+  }
+  Json Gaussians = Json::array(), Triangles = Json::array();
   std::array<double, 3> Sum{};
-  for (const PixelGaussian &G : Reference.pixel(S, R)) {
+  double Depths = 0, Weights = 0;
+  const auto Add = [&](const auto &Part) {
     for (std::size_t K = 0; K != Sum.size(); ++K)
-      Sum[K] += G.Weight * G.Color[K];
+      Sum[K] += Part.Weight * Part.Color[K];
+    Depths += Part.Weight * Part.Depth;
+    Weights += Part.Weight;
+  };
+  const PixelParts Parts =
+      Reference.pixel(S, R, D ? seenIn(D->Result) : nullptr);
+  for (const PixelGaussian &G : Parts.Gaussians) {
+    Add(G);
     Gaussians.push_back({{"index", G.Index},
                          {"weight", G.Weight},
                          {"alpha", G.Alpha},
@@ -518,14 +659,11 @@ std::string Session::pixel(const ViewRequest &R) {
                          {"pixels", G.Pixels},
                          {"error", G.Error}});
   }
-  Json Pixel{{"x", R.X}, {"y", R.Y}, {"reference", Sum}};
-  std::shared_ptr<const DrawnView> D;
-  {
-    const std::lock_guard Held(DeviceLock);
-    ViewRequest Plain = R;
-    Plain.Shown = Layer::Picture;
-    D = findDrawn(Plain, S->Number);
+  for (const PixelTriangle &T : Parts.Triangles) {
+    Add(T);
+    Triangles.push_back(triangleOf(T, *S));
   }
+  Json Pixel{{"x", R.X}, {"y", R.Y}, {"reference", Sum}};
   if (D) {
     const auto At = 3 * (static_cast<std::size_t>(R.Y) *
                              static_cast<std::size_t>(R.View.Width) +
@@ -533,7 +671,9 @@ std::string Session::pixel(const ViewRequest &R) {
     const auto Of = std::span(D->Result.Picture.Render).subspan(At, 3);
     Pixel["machine"] = std::array{Of[0], Of[1], Of[2]};
   }
+  Pixel["point"] = pointOf(Depths, Weights, R);
   Pixel["gaussians"] = std::move(Gaussians);
+  Pixel["triangles"] = std::move(Triangles);
   return jsonText(Pixel);
 }
 

@@ -68,15 +68,16 @@ public:
   /// Cancels slow parts of current and future calls.
   void giveUp() { Ending = true; }
 
-  /// The Gaussians of a pixel, as JSON.
-  std::string pixel(const ViewRequest &R);
+  /// The Gaussians and triangles of a pixel, as JSON.
+  Expected<std::string> pixel(const ViewRequest &R);
 
   /// The line for a shell that draws the picture of \p R, as JSON: `splat
   /// render` in the folder of this process, with a file of its camera.
-  std::string command(const ViewRequest &R) const;
+  Expected<std::string> command(const ViewRequest &R) const;
 
-  /// Replaces the scene by the file \p Name with \p Content. On an error the
-  /// old scene stays.
+  /// Shows the file \p Name with \p Content: a scene takes the place of all
+  /// that is shown, a mesh that of the last mesh beside a scene. On an error
+  /// nothing changes.
   Expected<Success> replace(std::string Name, const std::string &Content);
 
   /// Which Gaussians \p R selects, and where \c R.View shows them: pairs of
@@ -92,6 +93,7 @@ public:
 
 private:
   Session(Setup S, Device D, TemporaryFolder F);
+  Expected<Success> replaceMesh(std::string Name, const std::string &Content);
   void change(ShownScene Next);
   void show(ShownScene Next);
   std::shared_ptr<const ShownScene> scene() const;

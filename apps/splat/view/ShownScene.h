@@ -3,10 +3,13 @@
 
 #include "cameras/Vector.h"
 #include "io/Cameras.h"
+#include "mesh/Mesh.h"
 #include "scene/SceneFile.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +18,14 @@ namespace vorion::splat {
 
 /// The largest file that a page may send, in bytes.
 inline constexpr std::size_t LargestScene = std::size_t{1} << 30;
+
+/// A file with a mesh that is shown beside scenes.
+struct ShownMesh {
+  std::string Name; ///< of the file, for the command line
+  std::string Path;
+  bool IsTemporary = false;                        ///< as of a ShownScene
+  std::shared_ptr<const Mesh> Triangles = nullptr; ///< in the world
+};
 
 struct ShownScene {
   std::string Name; ///< name of its file, for display
@@ -32,10 +43,25 @@ struct ShownScene {
   /// Depth of the near plane, if it is not that of the rules (SceneUnit.h).
   std::optional<float> Near = std::nullopt;
   unsigned Edits = 0; ///< number of edits since it was opened
+
+  /// \name Triangles; null: none
+  /// @{
+  /// Of its file, in the world, in the axes of its Gaussians.
+  std::shared_ptr<const Mesh> OwnMesh = nullptr;
+  ShownMesh AddedMesh = {}; ///< of another file
+  /// All of them, in the frame of the Gaussians, by joinMeshes().
+  std::shared_ptr<const Mesh> Surface = nullptr;
+  /// The direction in which a light shines on them, of length 1.
+  std::optional<std::array<float, 3>> Light = std::nullopt;
+  /// @}
 };
 
-/// Writes the Gaussians of \p S in the frame of its file, in the format of the
-/// extension of \p Path, or as INRIA's PLY.
+/// Sets \c Surface of \p S.
+void joinMeshes(ShownScene &S);
+
+/// Writes \p S in the frame of its file, in the format of the extension of \p
+/// Path, or as INRIA's PLY: the Gaussians, and in a `.glb` the mesh of its
+/// file.
 Expected<Success> writeShown(const std::string &Path, const ShownScene &S);
 
 } // namespace vorion::splat

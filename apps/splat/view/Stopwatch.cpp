@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
@@ -18,6 +19,7 @@ namespace {
 /// Both settings of two views.
 constexpr std::size_t MostKept = 4;
 
+/// \p Tiles: the file of tiles, empty for none.
 Expected<MachineTime> readTime(const std::string &Report,
                                const std::string &Tiles) {
   const auto Read = readJson<Json>(Report, "a report of splat render");
@@ -31,6 +33,8 @@ Expected<MachineTime> readTime(const std::string &Report,
   for (const Json &Stage : Time.at("stages"))
     if (Stage.contains("time"))
       T.Stages.emplace_back(Stage.at("name"), Stage["time"].at("cycles"));
+  if (Tiles.empty())
+    return T;
   auto Work = readTileWork(Tiles);
   if (!Work)
     return Work.error();
@@ -40,11 +44,13 @@ Expected<MachineTime> readTime(const std::string &Report,
 
 } // namespace
 
-std::string Stopwatch::sceneFile(uint64_t Number) const {
-  return fmt::format("{}/scene-{}", Folder.path(), Number);
+std::string Stopwatch::sceneFile(uint64_t Number,
+                                 std::string_view Ending) const {
+  return fmt::format("{}/scene-{}{}", Folder.path(), Number, Ending);
 }
 
 std::vector<std::string> Stopwatch::words(const std::string &Scene,
+                                          const std::string &Mesh,
                                           const ShownScene &S,
                                           const ViewRequest &R,
                                           const std::string &Cameras) const {
@@ -53,6 +59,10 @@ std::vector<std::string> Stopwatch::words(const std::string &Scene,
     Words.insert(Words.end(), More.begin(), More.end());
   };
   Append(S.Words);
+  if (!Mesh.empty())
+    Append({"--mesh", Mesh});
+  if (S.Surface && S.Light)
+    Append({fmt::format("--light={}", fmt::join(*S.Light, ","))});
   Append(DeviceWords);
   Append({"--cameras", Cameras, "--near",
           fmt::format("{}", optionsOf(R, S).nearLimit())});
@@ -81,16 +91,20 @@ Stopwatch::measure(const ShownScene &S, const ViewRequest &R,
       return Written.error();
   if (auto Written = writeCameras(File("cameras.json"), {R.View}); !Written)
     return Written.error();
-  std::vector<std::string> Words = words(S.Path, S, R, File("cameras.json"));
+  std::vector<std::string> Words =
+      words(S.Path, S.AddedMesh.Path, S, R, File("cameras.json"));
   Words.insert(Words.end(), {"-o", File("picture.pfm"), "--json",
                              File("report.json"), "--time"});
   DeviceOptions Watched = Machine;
-  Watched.set("VORION_TILES", File("tiles"));
+  // With a mesh a tile has several commands.
+  const std::string Tiles = S.Surface ? "" : File("tiles");
+  if (!Tiles.empty())
+    Watched.set("VORION_TILES", Tiles);
   // A process that is ended leaves there what it would have removed.
   Watched.set("TMPDIR", Folder.path());
   if (auto Done = runSplat(Words, Watched, File("log"), GiveUp); !Done)
     return GiveUp() ? superseded() : Done.error();
-  auto Time = readTime(File("report.json"), File("tiles"));
+  auto Time = readTime(File("report.json"), Tiles);
   if (!Time)
     return Time.error();
   Last.push_front({S.Number, R.View, R.Chosen,

@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct MachineTime {
   std::string On; ///< the machine and its clock (ClockedMachine.h)
   /// Cycles by name of the stages.
   std::vector<std::pair<std::string, uint64_t>> Stages;
-  std::vector<TileWork> Tiles;
+  std::vector<TileWork> Tiles; ///< empty with a mesh
 };
 
 class Stopwatch {
@@ -44,12 +45,13 @@ public:
   measure(const ShownScene &S, const ViewRequest &R,
           const std::function<bool()> &GiveUp);
 
-  /// The file name for a scene without a file.
-  std::string sceneFile(uint64_t Number) const;
+  /// The file name for a scene without a file, with the extension \p Ending.
+  std::string sceneFile(uint64_t Number, std::string_view Ending) const;
 
   /// The arguments of `splat` that draw \p R with the only camera of the file
-  /// \p Cameras, without the output.
-  std::vector<std::string> words(const std::string &Scene, const ShownScene &S,
+  /// \p Cameras and with the mesh \p Mesh (empty: none), without the output.
+  std::vector<std::string> words(const std::string &Scene,
+                                 const std::string &Mesh, const ShownScene &S,
                                  const ViewRequest &R,
                                  const std::string &Cameras) const;
 

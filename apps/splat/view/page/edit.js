@@ -50,7 +50,9 @@ export class Editor {
   // Another scene, or the same after an edit.
   began() {
     const { endings } = this.page.scene();
-    if (!byId('format').options.length) byId('format').append(...endings.map(e => element('option', { value: e }, e)));
+    const format = byId('format'), chosen = format.value;
+    format.replaceChildren(...endings.map(e => element('option', { value: e }, e)));
+    if (endings.includes(chosen)) format.value = chosen;
     this.parts = [];
     this.choose('');
   }

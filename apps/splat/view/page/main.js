@@ -105,6 +105,7 @@ function changed() {
   ++version;
   for (const mark of document.querySelectorAll('.mark')) mark.hidden = true;
   byId('gaussians').hidden = true;
+  byId('triangles').replaceChildren();
   byId('pixel-about').textContent = 'Click into the picture, or press Enter for its middle. A double click turns to what is there.';
   byId('command').hidden = true;
   byId('facts').classList.add('past');
@@ -266,7 +267,8 @@ const showSettings = () => showKnobs(byId('knobs'), scene.knobs, settings, two()
 function setUp(described, kept) {
   scene = described;
   byId('name').textContent = document.title = scene.name;
-  byId('about').textContent = `${scene.gaussians.toLocaleString('en')} Gaussians, SH degree ${scene.sh_degree}, ${scene.format}; on ${scene.device}`;
+  byId('about').textContent = `${scene.gaussians.toLocaleString('en')} Gaussians, SH degree ${scene.sh_degree}, ${scene.format}` +
+    `${scene.triangles ? `; ${scene.triangles.toLocaleString('en')} triangles` : ''}; on ${scene.device}`;
   byId('camera').replaceChildren(...scene.cameras.map((c, n) => element('option', { value: n }, c.name)),
     element('option', { value: '', disabled: '' }, 'free'));
   byId('lens').parentElement.hidden = !scene.cameras.some(c => c.lens_is_a_choice);
@@ -306,7 +308,10 @@ async function open(name, bytes) {
 
 const pixelAt = (x, y) => ({ x: Math.min(Math.floor(x * size.width), size.width - 1), y: Math.min(Math.floor(y * size.height), size.height - 1) });
 
-const pointAt = async (x, y) => (await readFrame(request('a', { layer: 'depth', ...pixelAt(x, y) }))).facts.point;
+// Without depths of all pixels, the reference has those of one.
+const pointAt = async (x, y) => scene.layers.includes('depth')
+  ? (await readFrame(request('a', { layer: 'depth', ...pixelAt(x, y) }))).facts.point
+  : (await tell('pixel', request('a', pixelAt(x, y)))).point;
 
 // Turns to what is shown at these shares of the picture, which is then what an orbit goes about.
 async function turnTo(x, y) {

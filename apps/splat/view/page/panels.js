@@ -50,23 +50,42 @@ export function showLegend(figure, scale, ramp) {
 
 const MOST_ROWS = 40;
 const color = c => `rgb(${c.map(v => Math.round(255 * Math.max(0, Math.min(1, v)))).join(' ')})`;
+const percent = share => `${(100 * share).toFixed(2)} %`;
+const sumOf = parts => parts.reduce((s, part) => s + part.weight, 0);
+
+// "triangle 3 of wall.obj, door"
+const nameOf = t => `triangle ${t.number} of ${[t.file, t.part].filter(n => n).join(', ')}`;
+
+function row(name, part, ...cells) {
+  const swatch = element('span', { class: 'swatch' });
+  swatch.style.background = color(part.color);
+  return element('tr', {}, element('th', { scope: 'row' }, swatch, ` ${name}`),
+    ...[percent(part.weight), part.alpha.toFixed(3), short(part.depth), ...cells].map(t => element('td', {}, t)));
+}
+
+// The rows of `gaussians` with a weight of at least `least`, with the triangles between them.
+function rows({ gaussians, triangles }, least) {
+  const all = [], add = n => all.push(...triangles.filter(t => t.in_front === n).map(t => row(nameOf(t), t, '', '', '')));
+  gaussians.forEach((g, n) => {
+    add(n);
+    if (g.weight >= least) all.push(row(g.index, g, whole(g.tiles), whole(g.pixels), g.error.toExponential(1)));
+  });
+  add(gaussians.length);
+  return all;
+}
 
 export function showPixel(pixel) {
-  const table = byId('gaussians');
-  const sum = pixel.gaussians.reduce((s, g) => s + g.weight, 0);
+  const table = byId('gaussians'), { gaussians, triangles } = pixel;
   const triple = c => c.map(v => v.toFixed(4)).join(', ');
-  byId('pixel-about').textContent = `(${pixel.x}, ${pixel.y}): ${pixel.gaussians.length} Gaussians, together ${(100 * sum).toFixed(1)} % of it. ` +
-    `Reference in fp64: ${triple(pixel.reference)}.` + (pixel.machine ? ` Machine: ${triple(pixel.machine)}.` : '') +
-    (pixel.gaussians.length > MOST_ROWS ? ` The ${MOST_ROWS} of the most weight, front to back:` : ' Front to back:');
-  table.hidden = pixel.gaussians.length === 0;
-  const least = pixel.gaussians.map(g => g.weight).sort((a, b) => b - a)[MOST_ROWS - 1] ?? 0;
+  byId('pixel-about').textContent = `(${pixel.x}, ${pixel.y}): ${gaussians.length} Gaussians, together ${(100 * sumOf(gaussians)).toFixed(1)} % of it` +
+    (triangles.length ? `, triangles ${(100 * sumOf(triangles)).toFixed(1)} %` : '') +
+    `. Reference in fp64: ${triple(pixel.reference)}.` + (pixel.machine ? ` Machine: ${triple(pixel.machine)}.` : '') +
+    (gaussians.length > MOST_ROWS ? ` The ${MOST_ROWS} of the most weight, front to back:` : ' Front to back:');
+  byId('triangles').replaceChildren(...triangles.map(t => element('li', {},
+    `${nameOf(t)}: corners ${t.corners.map(c => `(${c.map(short).join(', ')})`).join(', ')}`)));
+  table.hidden = gaussians.length + triangles.length === 0;
+  const least = gaussians.map(g => g.weight).sort((a, b) => b - a)[MOST_ROWS - 1] ?? 0;
   table.tHead.replaceChildren(element('tr', {}, ...['Gaussian', 'weight', 'alpha', 'depth', 'tiles', 'pixels', 'error in fp32']
     .map(n => element('th', { scope: 'col' }, n))));
-  table.tBodies[0].replaceChildren(...pixel.gaussians.filter(g => g.weight >= least).slice(0, MOST_ROWS).map(g => {
-    const swatch = element('span', { class: 'swatch' });
-    swatch.style.background = color(g.color);
-    return element('tr', {}, element('th', { scope: 'row' }, swatch, ` ${g.index}`), ...[
-      `${(100 * g.weight).toFixed(2)} %`, g.alpha.toFixed(3), short(g.depth), whole(g.tiles), whole(g.pixels), g.error.toExponential(1)
-    ].map(t => element('td', {}, t)));
-  }));
+  table.tBodies[0].replaceChildren(...rows(pixel, least));
 }
