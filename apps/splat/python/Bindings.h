@@ -15,6 +15,7 @@ namespace vorion::splat::python {
 using Words = std::vector<std::string>;
 
 void addScene(pybind11::module_ &M);
+void addMesh(pybind11::module_ &M);
 void addCamera(pybind11::module_ &M);
 void addMachine(pybind11::module_ &M);
 

@@ -5,10 +5,12 @@
 #include "commands/Choices.h"
 #include "commands/DeviceArguments.h"
 #include "commands/EnergyArguments.h"
+#include "commands/MeshArguments.h"
 #include "commands/PictureOptions.h"
 #include "picture/SceneUnit.h"
 #include "render/FrameTime.h"
 #include "render/Gradients.h"
+#include "render/MeshRules.h"
 #include "render/Pictures.h"
 #include "render/Report.h"
 #include "scene/LocalFrame.h"
@@ -202,6 +204,16 @@ const Scene *preparedFor(const Scene &S, const Camera &C, RenderOptions &O,
   return &*Copy;
 }
 
+/// Adds \p Triangles, null for none, to \p O for a scene in the frame of
+/// \p Drawn.
+void placeMesh(std::shared_ptr<Mesh> Triangles, const Scene &Drawn,
+               RenderOptions &O) {
+  if (O.Light && !Triangles)
+    throw Failed(lightWithoutMesh());
+  O.Surface = joined(std::move(Triangles), nullptr, Drawn.Origin);
+  valueOf(checkMeshCamera(O, ""));
+}
+
 /// By name; what was not asked for is None.
 py::dict layersOf(const Layers &L, RenderResult &R, const RenderOptions &O,
                   const Shape &Sizes) {
@@ -222,13 +234,15 @@ py::dict layersOf(const Layers &L, RenderResult &R, const RenderOptions &O,
   return By;
 }
 
-py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
-                 bool Depth, bool Normals, bool Timed) {
+py::tuple render(Machine &M, const SceneFile &S, const Camera &C,
+                 std::shared_ptr<Mesh> Triangles, Words Given, bool Depth,
+                 bool Normals, bool Timed) {
   DrawArguments A;
   Layers Beside{Depth, Normals};
   EnergyArguments Asked;
   parse(std::move(Given), [&](CLI::App &App) {
     addDrawOptions(App, A);
+    addLightOption(App, A.Options.Light);
     addLayers(App, Beside);
     addEnergyOptions(App, Asked, "the picture");
   });
@@ -245,6 +259,10 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
   drawAs(A.Options, S.DrawnAs);
   std::optional<Scene> Copy;
   const Scene &Drawn = *preparedFor(S.Gaussians, C, A.Options, Copy);
+  if (Triangles && (Normals || Beside.needLists()))
+    throw Failed(layersBesideMesh());
+  placeMesh(std::move(Triangles), Drawn, A.Options);
+  valueOf(checkTransparency(A.Options, Beside.needDepths()));
   RenderPlan Plan;
   RenderResult R = M.run(Timed, [&](Launcher &L) -> Expected<RenderResult> {
     if (auto Finite = checkFinite("the scene", Drawn); !Finite)
@@ -270,12 +288,15 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
 
 /// \p Stored: by logarithms of scales and logits of opacities.
 py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
-                    const FloatArray &ByImage, const FloatArray &ByAlpha,
-                    Words Given, bool Stored, bool Timed) {
+                    std::shared_ptr<Mesh> Triangles, const FloatArray &ByImage,
+                    const FloatArray &ByAlpha, Words Given, bool Stored,
+                    bool Timed) {
   RenderOptions O;
   BackwardOptions B;
-  parse(std::move(Given),
-        [&](CLI::App &App) { addGradientOptions(App, O, B); });
+  parse(std::move(Given), [&](CLI::App &App) {
+    addGradientOptions(App, O, B);
+    addLightOption(App, O.Light);
+  });
   O.Optics = C.Optics.Model;
   O.Rolling = C.Optics.Shutter.has_value();
   valueOf(checkGradientOptions(O, B));
@@ -284,6 +305,8 @@ py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
   drawAs(O, S.DrawnAs);
   std::optional<Scene> Copy;
   const Scene &Drawn = *preparedFor(S.Gaussians, C, O, Copy);
+  placeMesh(std::move(Triangles), Drawn, O);
+  valueOf(checkOpaque(O));
   const Shape Sizes = sizesOf(C);
   const Shape Colours{Sizes[0], Sizes[1], 3};
   const PixelGradients U{valuesOf(ByImage, "v_image", Colours),
@@ -336,6 +359,7 @@ void addMachine(py::module_ &M) {
     EnergyArguments Energy;
     return optionNames([&](CLI::App &App) {
       addDrawOptions(App, A);
+      addLightOption(App, A.Options.Light);
       addLayers(App, Beside);
       addEnergyOptions(App, Energy, "");
     });
@@ -343,7 +367,10 @@ void addMachine(py::module_ &M) {
   M.def("gradient_options", [] {
     RenderOptions O;
     BackwardOptions B;
-    return optionNames([&](CLI::App &App) { addGradientOptions(App, O, B); });
+    return optionNames([&](CLI::App &App) {
+      addGradientOptions(App, O, B);
+      addLightOption(App, O.Light);
+    });
   });
 }
 

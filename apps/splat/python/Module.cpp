@@ -7,6 +7,7 @@ PYBIND11_MODULE(_machine, M) {
   M.attr("__version__") = VORION_VERSION;
   addErrors(M);
   addScene(M);
+  addMesh(M);
   addCamera(M);
   addMachine(M);
 }

@@ -59,6 +59,31 @@ attempt(vorion.Camera, 5, 5, np.diag([-1, 1, 1]))
 attempt(vorion.Camera, 5, 5, np.eye(3), np.diag([1, 1, -1, 1]))
 attempt(vorion.Camera, 5, 5, np.ones((3, 3)))
 attempt(machine.render, scene, vorion.Camera(16384, 16384, np.diag([16384, 16384, 1])))
+corners, faces = np.eye(3), [[0, 1, 2]]
+attempt(vorion.Mesh, corners[:, :2], faces)
+attempt(vorion.Mesh, np.zeros((0, 3)), faces)
+attempt(vorion.Mesh, corners, [[0, 1, 3]])
+attempt(vorion.Mesh, corners, [[0, 1, -1]])
+attempt(vorion.Mesh, corners, [[0, 1.0, 2]])
+attempt(vorion.Mesh, corners, [0, 1, 2])
+attempt(vorion.Mesh, np.full((3, 3), np.inf), faces)
+attempt(vorion.Mesh, corners * 1e39, faces)
+attempt(vorion.Mesh, [["a", "b", "c"]] * 3, faces)
+attempt(vorion.Mesh, corners, faces, corners[:2])
+attempt(vorion.Mesh, corners, faces, 2 * corners)
+attempt(vorion.Mesh, corners, faces, normals=corners[None, None])
+attempt(vorion.Mesh, corners, faces, uv=corners[:, :2])
+attempt(vorion.Mesh, corners, faces, uv=corners[:, :2], texture=corners)
+attempt(vorion.Mesh, corners, faces, alpha="glass")
+attempt(vorion.Mesh.read, "s.ply")
+attempt(machine.render, scene, camera, mesh="m.obj")
+attempt(machine.render, scene, camera, light=(0, 0, 1))
+mesh, pane = vorion.Mesh(corners, faces), vorion.Mesh(corners, faces, alpha="blend")
+attempt(machine.render, scene, camera, mesh=mesh, light=(0, 0, 0))
+attempt(machine.render, scene, camera, mesh=mesh, normals=True)
+attempt(machine.render, scene, camera, mesh=pane, depth=True)
+attempt(machine.render, scene, camera, mesh=pane, ztiles=2)
+attempt(machine.gradients, scene, camera, v_image, mesh=pane)
 attempt(machine.render, "s.ply", camera)
 attempt(machine.render, scene, [camera])
 attempt(machine.gradients, 3, camera, v_image)
@@ -68,9 +93,9 @@ attempt(vorion.Machine, set={"dram": 1})
 print("again:", machine.render(scene, camera).report["counts"]["visible"])
 
 # The signatures have every option of the commands, and no other.
-for method, names, own in ((machine.render, _machine.render_options(), {"scene", "camera", "depth", "normals", "time"}),
+for method, names, own in ((machine.render, _machine.render_options(), {"scene", "camera", "mesh", "depth", "normals", "time"}),
                            (machine.gradients, _machine.gradient_options(),
-                            {"scene", "camera", "v_image", "v_alpha", "of", "time"})):
+                            {"scene", "camera", "mesh", "v_image", "v_alpha", "of", "time"})):
     named = {n.replace("-", "_") for n in names}
     assert set(inspect.signature(method).parameters) == named | own, named ^ (set(inspect.signature(method).parameters) - own)
     for name in named | own:

@@ -33,6 +33,19 @@ for file, options in (("raster-back.npz", {}), ("simt-back.npz", {"path": "simt"
         same(back.by[name], results["f32_g_" + name], f"{file} {name}")
     same(back.by["sh"], results["f32_g_colors"], file + " sh")
 
+# In front of a wall behind all they are those of a background in its colour, which an opaque mesh is.
+corners, color = np.array([[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]]) * 90, (0.25, 0.5, 0.75)
+wall = vorion.Mesh(corners, [[0, 1, 2], [0, 2, 3]], [color] * 4)
+for path in ("raster", "simt"):
+    beside = machine.gradients(scene, camera, up["in_v_render"], mesh=wall, path=path)
+    alone = machine.gradients(scene, camera, up["in_v_render"], background=color, path=path)
+    assert np.abs(beside.image - alone.image).max() < 1e-5 and (beside.alpha == 1).all()
+    for name in beside.by:
+        off = np.linalg.norm(beside.by[name] - alone.by[name]) / np.linalg.norm(alone.by[name])
+        assert off < 1e-3, (path, name, off)
+hidden = machine.gradients(scene, camera, up["in_v_render"], mesh=vorion.Mesh(corners * 0.201 / 90, [[0, 1, 2], [0, 2, 3]])).by
+assert not any(np.any(hidden[name]) for name in hidden)
+
 # By stored parameters: the chain rule, in double.
 stored = machine.gradients(scene, camera, up["in_v_render"], up["in_v_alpha"], of="stored").by
 opacities = 1 / (1 + np.exp(-scene.opacity_logits.astype(float)))

@@ -46,6 +46,34 @@ median = machine.render(scene, camera, depth=True, depth_as="median")
 same(median.depth, np.load("median.npz")["depth"], "median depth")
 assert median.normals is None and median.contributors is None
 
+# With a mesh of a file, and with one of arrays.
+ball, light = vorion.Mesh.read("m.obj"), (0.3, -1, 0.5)
+again = vorion.Mesh(ball.vertices, ball.triangles, ball.colors)
+with open("mesh.json", encoding="utf-8") as f:
+    wanted = json.load(f)["mesh"]
+for mesh in (ball, again):
+    beside = machine.render(scene, camera, mesh=mesh, light=light, depth=True)
+    same_picture(beside, "mesh.npz")
+    same(beside.depth, np.load("mesh-depth.npz")["depth"], "depth with a mesh")
+    assert beside.report["mesh"] == {key: wanted[key] for key in ("vertices", "triangles", "textures", "light")}
+same_picture(machine.render(scene, camera, mesh=vorion.Mesh.read("m.gltf"), path="simt"), "textured.npz")
+
+# A square in front of all that shows a texture, and a pane through which the rest is seen.
+empty = vorion.Scene(scene.means + [0, 0, 99], scene.log_scales, scene.quats, scene.opacity_logits, scene.sh)
+square, halves = [[-9, -9, 0.5], [9, -9, 0.5], [9, 9, 0.5], [-9, 9, 0.5]], [[0, 1, 2], [0, 2, 3]]
+texture = 100 + 10 * np.arange(3 * 4, dtype=np.uint8).reshape(2, 2, 3)
+around = 9 * 110 / 0.5 / 150  # pictures beside the middle of the square, in which the texture is once
+left, right, top, bottom = 0.5 - around, 0.5 + around, 0.5 - 1.5 * around, 0.5 + 1.5 * around
+uv = [[left, top], [right, top], [right, bottom], [left, bottom]]
+shown = machine.render(empty, camera, mesh=vorion.Mesh(square, halves, uv=uv, texture=texture)).image
+for y, x in ((0, 0), (0, 1), (1, 0), (1, 1)):
+    assert np.abs(shown[25 + 50 * y, 37 + 75 * x] * 255 - texture[y, x]).max() < 3, (shown[25 + 50 * y, 37 + 75 * x] * 255, texture[y, x])
+nearest = np.array(square) * 0.402  # beyond the near plane
+pane = machine.render(scene, camera, mesh=vorion.Mesh(nearest, halves, [(1, 0, 0, 0.25)] * 4, alpha="blend")).image
+assert np.abs(pane[50, 75] - 0.75 * plain.image[50, 75] - [0.25, 0, 0]).max() < 1e-5
+corners = machine.render(scene, camera, mesh=vorion.Mesh(square, halves, normals=np.tile([0, 0, -1.0], (2, 3, 1))), light=(0, 0, 1))
+same(corners.image, machine.render(scene, camera, mesh=vorion.Mesh(square, halves), light=(0, 0, 1)).image, "normals")
+
 opacities = 1 / (1 + np.exp(-scene.opacity_logits.astype(float)))
 
 # A scene of arrays, and one that is changed in place.

@@ -21,7 +21,8 @@ from ._machine import Error, InputError, LimitError, TrapError, UsageError, __ve
 from .camera import Camera, cameras, read_cameras, write_cameras
 from .command import command, compare
 from .machine import Contributors, Gradients, Machine, Picture
+from .mesh import Mesh
 from .scene import Scene
 
-__all__ = ["Camera", "Contributors", "Error", "Gradients", "InputError", "LimitError", "Machine", "Picture", "Scene",
-           "TrapError", "UsageError", "__version__", "cameras", "command", "compare", "read_cameras", "write_cameras"]
+__all__ = ["Camera", "Contributors", "Error", "Gradients", "InputError", "LimitError", "Machine", "Mesh", "Picture",
+           "Scene", "TrapError", "UsageError", "__version__", "cameras", "command", "compare", "read_cameras", "write_cameras"]

@@ -11,12 +11,20 @@ from . import _machine
 from ._machine import UsageError
 from ._words import words
 from .camera import Camera
+from .mesh import Mesh
 from .scene import Scene
 
 
 def _check(value, kind, name):
     if not isinstance(value, kind):
         raise UsageError(f"{name} is a {type(value).__name__}, expected a vorion.{kind.__name__}")
+
+
+def _native_mesh(mesh):
+    if mesh is None:
+        return None
+    _check(mesh, Mesh, "mesh")
+    return mesh._native
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -123,7 +131,8 @@ class Machine:
         """The OpenCL device's."""
         return self._native.name
 
-    def render(self, scene: Scene, camera: Camera, *, depth: bool = False, normals: bool = False,
+    def render(self, scene: Scene, camera: Camera, *, mesh: Mesh | None = None,
+               light: tuple[float, float, float] | None = None, depth: bool = False, normals: bool = False,
                time: bool = False, depth_as: str | None = None, contributors: int | None = None,
                rules: str | None = None, support: str | None = None, path: str | None = None,
                background: tuple[float, float, float] | None = None, cutoff: float | None = None,
@@ -136,6 +145,8 @@ class Machine:
                technology: str | None = None, voltage: float | None = None) -> Picture:
         """Draws `scene` as `camera` sees it.
 
+        mesh: triangles that are drawn with the Gaussians (docs/meshes.md)
+        light: direction in the world's axes in which a light shines on them; None for colours as they are
         depth: blend depths, too
         normals: blend normals, too: of each Gaussian its shortest axis, towards the camera
         contributors: keep so many Gaussians of each pixel, up to 64, those with the largest weights
@@ -165,18 +176,19 @@ class Machine:
         _check(scene, Scene, "scene")
         _check(camera, Camera, "camera")
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
-                       "exp": exp, "alpha_cutoff": alpha_cutoff, "depth_bits": depth_bits, "sh_degree": sh_degree,
+                       "light": light, "exp": exp, "alpha_cutoff": alpha_cutoff, "depth_bits": depth_bits, "sh_degree": sh_degree,
                        "blend": blend, "tile": tile, "ztiles": ztiles, "pixel_unit": pixel_unit,
                        "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
                        "effects": effects, "near": near, "projection": projection, "order": order,
                        "ray_window": ray_window, "cull_blocks": cull_blocks, "depth_as": depth_as,
                        "contributors": contributors, "energy": energy, "technology": technology, "voltage": voltage})
-        image, alpha, by, report = self._native.render(scene._native, camera._native, asked, depth, normals, time)
+        image, alpha, by, report = self._native.render(scene._native, camera._native, _native_mesh(mesh), asked, depth,
+                                                       normals, time)
         top = by["contributors"]
         return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None)
 
     def gradients(self, scene: Scene, camera: Camera, v_image: ArrayLike, v_alpha: ArrayLike | None = None, *,
-                  of: str = "activated", time: bool = False, rules: str | None = None, support: str | None = None,
+                  mesh: Mesh | None = None, light: tuple[float, float, float] | None = None, of: str = "activated", time: bool = False, rules: str | None = None, support: str | None = None,
                   path: str | None = None, background: tuple[float, float, float] | None = None,
                   cutoff: float | None = None, simt_tile: int | None = None, simt_group: int | None = None,
                   reciprocal: str | None = None, sum: str | None = None, simt_sums: str | None = None,
@@ -188,7 +200,7 @@ class Machine:
         of: "activated" for dL by scales and opacities, "stored" for dL by log_scales and opacity_logits
         reciprocal, sum: the rasterizer's unit for 1 / (1 - alpha), and how it adds up rows
         simt_sums: how the cores' way back adds up pixels, "ordered", "atomics" or "warp"
-        The other options are those of render(). Harmonics have all the scene's degrees.
+        The other options are those of render(). Harmonics have all the scene's degrees. A mesh must be opaque.
         """
         _check(scene, Scene, "scene")
         _check(camera, Camera, "camera")
@@ -196,10 +208,9 @@ class Machine:
             raise UsageError(f"of={of!r}: expected 'activated' or 'stored'")
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
                        "simt_tile": simt_tile, "simt_group": simt_group, "reciprocal": reciprocal, "sum": sum,
-                       "simt_sums": simt_sums, "near": near,
-                       "projection": projection})
+                       "simt_sums": simt_sums, "near": near, "projection": projection, "light": light})
         if v_alpha is None:
             v_alpha = np.zeros((camera.height, camera.width), dtype=np.float32)
-        image, alpha, by, report = self._native.gradients(scene._native, camera._native, v_image, v_alpha, asked,
-                                                          of == "stored", time)
+        image, alpha, by, report = self._native.gradients(scene._native, camera._native, _native_mesh(mesh), v_image, v_alpha,
+                                                          asked, of == "stored", time)
         return Gradients(image, alpha, report, by)
