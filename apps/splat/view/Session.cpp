@@ -78,7 +78,7 @@ Json triangleOf(const PixelTriangle &T, const ShownScene &S) {
 Expected<std::shared_ptr<const Mesh>> readSent(const std::string &Path,
                                                const std::string &Name) {
   // Nobody else knows the file by its path.
-  const auto ByName = [&](std::string Where) {
+  const auto ByName = [&](const std::string &Where) {
     return Where.starts_with(Path) ? Name + Where.substr(Path.size()) : Where;
   };
   auto Read = readMesh(Path);
