@@ -2,6 +2,7 @@
 
 #include "commands/Choices.h"
 #include "commands/Usage.h"
+#include "mesh/Mesh.h"
 #include "render/PixelLists.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -207,6 +208,39 @@ void warnOfMissing(const EffectPlan &P, const std::string &Asked) {
                     fmt::format("--effects {} excludes {}, which the scene "
                                 "needs ({}): the picture differs",
                                 Asked, E->Name, P.of(*E).Detected.Figure));
+}
+
+void addMeshPrecisionOptions(CLI::App &App, RenderOptions &O) {
+  const HelpGroup Group(App, "Accuracy and speed");
+  App.add_option("--subpixel-bits", O.SubpixelBits,
+                 "Sub-pixel bits of the corners of a mesh's triangles "
+                 "(default 8)")
+      ->check(isBetween(1U, MaxSubpixelBits));
+  addChoice(App, "--mesh-depth", O.MeshDepth, DepthFormats,
+            "Format of a mesh's depth buffer");
+  App.add_option("--filter-bits", O.FilterBits,
+                 "Bits of the weights of a mesh's texture filters (default: "
+                 "fp32)")
+      ->check(isBetween(1U, MaxFilterBits));
+}
+
+Expected<Success> checkMeshPrecision(const RenderOptions &O,
+                                     const std::string &Cameras) {
+  const RenderOptions Default;
+  if (!O.Surface && (O.SubpixelBits != Default.SubpixelBits ||
+                     O.MeshDepth != Default.MeshDepth))
+    return usage("--subpixel-bits and --mesh-depth apply to a mesh only, "
+                 "expected --mesh");
+  if (O.FilterBits && !(O.Surface && O.Surface->hasTextures()))
+    return usage("--filter-bits applies to textures only, expected a mesh with "
+                 "some");
+  if (O.Optics->IsParallel && O.MeshDepth != Default.MeshDepth)
+    return Error{Cameras,
+                 fmt::format("--mesh-depth {} is of depths that fall with 1/z, "
+                             "expected fp32 with a camera of model {}",
+                             name(O.MeshDepth), O.Optics->Name),
+                 ExitCode::Usage};
+  return Success{};
 }
 
 CLI::Option *addVectorOption(CLI::App &App, const std::string &Name,

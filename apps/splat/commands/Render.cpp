@@ -450,7 +450,8 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   for (const auto &Checked :
        {checkMesh(A, A.Options.Surface != nullptr),
         checkTransparency(A.Options, A.Layers.needDepths(), A.Overlap),
-        checkMeshCamera(A.Options, A.Cameras.File)})
+        checkMeshCamera(A.Options, A.Cameras.File),
+        checkMeshPrecision(A.Options, A.Cameras.File)})
     if (!Checked)
       return Checked;
   if (!isOne(A) && !isVideo(A))
@@ -624,6 +625,7 @@ Runner addRender(CLI::App &App) {
             "lists or, with several pictures, by their cost in the previous "
             "one (docs/ideas.md)");
   addMeshOptions(App, A->Mesh);
+  addMeshPrecisionOptions(App, A->Options);
   Group.next("Beside the picture");
   writesFile(App.add_option("--dump-visible", A->Visible,
                             "Write depth and triangle of the mesh in each "

@@ -6,6 +6,8 @@
 
 // Rays are parallel (lens/Orthographic.cpp).
 #pragma vorion choice effect USE_ORTHOGRAPHIC
+// Sub-pixel bits of the corners, up to VX_SUBPIXEL_BITS (--subpixel-bits).
+#pragma vorion choice optional uint SUBPIXEL_BITS
 // Some triangles are not opaque, and drawn apart (effects/Mesh.cpp).
 #pragma vorion choice effect USE_LAYERS
 
@@ -30,6 +32,10 @@
 // Of a triangle that is cut by the near plane and four sides.
 #define MOST_CORNERS 8
 #define CUTS 5
+
+#ifndef SUBPIXEL_BITS
+#define SUBPIXEL_BITS VX_SUBPIXEL_BITS
+#endif
 
 // Vertices in the camera's axes; their z is what orders Gaussians.
 __kernel void mesh_points(__global const splat_view *camera,
@@ -125,9 +131,11 @@ static polygon polygon_of(__local const splat_view *view,
   return p;
 }
 
+// In units of the set-up, 2^-VX_SUBPIXEL_BITS px.
 static int snapped(float place) {
   return convert_int_rte(clamp(place, GUARD_LOW - 1.0f, GUARD_HIGH + 1.0f) *
-                         (float)(1 << VX_SUBPIXEL_BITS));
+                         (float)(1 << SUBPIXEL_BITS)) *
+         (1 << (VX_SUBPIXEL_BITS - SUBPIXEL_BITS));
 }
 
 // The record of triangle `part` of the fan of `p`; 0 if no pixel is covered.

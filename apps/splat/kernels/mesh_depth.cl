@@ -4,6 +4,7 @@
 // Rays are parallel (lens/Orthographic.cpp).
 #pragma vorion choice effect USE_ORTHOGRAPHIC
 
+#include "depth_format.h"
 #include "layout.h"
 
 // From z to the depth of the triangles' planes, which is linear on the picture
@@ -12,7 +13,7 @@ static float flip_depth(float depth) {
 #if USE_ORTHOGRAPHIC
   return -depth;
 #else
-  return 1.0f / depth;
+  return DEPTH_SCALE / depth;
 #endif
 }
 

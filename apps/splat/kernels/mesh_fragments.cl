@@ -2,6 +2,7 @@
 // their fragments over (docs/primitives.md#output). One group a core.
 
 #include "deal.cl"
+#include "depth_format.h"
 #include "fragment.cl"
 #include "local_view.cl"
 #include "tile.h"
@@ -36,7 +37,8 @@ __kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void mesh_fragments(
   vr_tail_count_set(0);
   vr_tail_share_set(0);
   vx_raster_triangles(VR_DEPTH_GREATER << VR_DEPTH_FUNCTION_SHIFT |
-                          1 << VR_DEPTH_LOAD_SHIFT,
+                          1 << VR_DEPTH_LOAD_SHIFT |
+                          DEPTH_IS_INTEGER << VR_DEPTH_INTEGER_SHIFT,
                       0.0f, 1);
   const uint lane = get_local_id(0);
   for (deal d = first_job(); d.job < tiles; d = next_job(d)) {

@@ -2,6 +2,7 @@
 // (docs/primitives.md). One group a core.
 
 #include "deal.cl"
+#include "depth_format.h"
 #include "tile.h"
 
 #include <vorion_raster.h>
@@ -17,7 +18,8 @@ mesh_visibility(__global const uint *records, __global const uint *list,
   vr_tail_count_set(0);
   vr_tail_share_set(0);
   vx_raster_triangles(VR_DEPTH_GREATER << VR_DEPTH_FUNCTION_SHIFT |
-                          1 << VR_DEPTH_WRITE_SHIFT,
+                          1 << VR_DEPTH_WRITE_SHIFT |
+                          DEPTH_IS_INTEGER << VR_DEPTH_INTEGER_SHIFT,
                       -INFINITY, 0);
   for (deal d = first_job(); d.job < tiles; d = next_job(d)) {
     const uint2 range = ranges[d.job];

@@ -2,6 +2,7 @@
 // (docs/primitives.md).
 #pragma once
 
+#include "depth_format.h"
 #include "layout.h"
 
 #include <vorion.h>
@@ -38,6 +39,9 @@ static surface_sample sample_triangle(__global const uint *records, uint number,
   s.is_covered = true;
   s.depth = (corner + t->depth_step[0] * (float)(x - x0)) +
             t->depth_step[1] * (float)(y - y0);
+#if DEPTH_IS_INTEGER
+  s.depth = rint(s.depth);
+#endif
   s.triangle = t->tag;
   return s;
 }

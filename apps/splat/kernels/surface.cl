@@ -7,6 +7,9 @@
 #pragma vorion choice effect USE_ORTHOGRAPHIC
 // Triangles have textures (effects/Texture.cpp).
 #pragma vorion choice effect USE_TEXTURE
+// Bits of the fractions by which filters weight texels and levels
+// (--filter-bits). Without it these are fp32.
+#pragma vorion choice optional uint FILTER_BITS
 // A light shines on them (effects/Light.cpp).
 #pragma vorion choice effect USE_LIGHT
 
@@ -137,6 +140,15 @@ static float4 texel(const surface *s, uint place) {
                   s->linear[c >> 16 & 255], (float)(c >> 24) / 255.0f);
 }
 
+// A place between texels or levels, as the filters have it.
+static float filter_place(float at) {
+#ifdef FILTER_BITS
+  return rint(at * (float)(1 << FILTER_BITS)) / (float)(1 << FILTER_BITS);
+#else
+  return at;
+#endif
+}
+
 // The texture in one of its levels, `at` 0 to 1.
 static float4 sample_level(const surface *s, __global const splat_material *m,
                            uint level, bool is_linear, float2 at) {
@@ -147,8 +159,9 @@ static float4 sample_level(const surface *s, __global const splat_material *m,
   if (!is_linear)
     return texel(s, first + (uint)(min((int)y, height - 1) * width +
                                    min((int)x, width - 1)));
-  const float left = floor(x - 0.5f), top = floor(y - 0.5f);
-  const float fx = x - 0.5f - left, fy = y - 0.5f - top;
+  const float px = filter_place(x - 0.5f), py = filter_place(y - 0.5f);
+  const float left = floor(px), top = floor(py);
+  const float fx = px - left, fy = py - top;
   const int x0 = wrapped((int)left, width, m->wrap[0]);
   const int x1 = wrapped((int)left + 1, width, m->wrap[0]);
   const uint y0 = first + (uint)(wrapped((int)top, height, m->wrap[1]) * width);
@@ -177,7 +190,7 @@ static float4 sample_texture(const surface *s, __global const splat_material *m,
   if (!(m->filters & FILTER_BETWEEN))
     return sample_level(s, m, (uint)min(ceil(level + 0.5f) - 1.0f, last),
                         is_linear, place);
-  const float held = min(level, last), lower = floor(held);
+  const float held = filter_place(min(level, last)), lower = floor(held);
   const float4 fine = sample_level(s, m, (uint)lower, is_linear, place);
   if (held == lower)
     return fine;

@@ -33,6 +33,17 @@ enum class Spread { Jacobian, Unscented };
 /// along the pixel's own ray.
 enum class PixelOrder { Depth, Ray };
 
+/// Format of the depths that a mesh's triangles are tested by: floats, or
+/// integers of 24 or 16 bits, which are the near plane's depth over z times the
+/// largest.
+enum class DepthFormat { Fp32, Unorm24, Unorm16 };
+inline constexpr std::array<DepthFormat, 3> DepthFormats{
+    DepthFormat::Fp32, DepthFormat::Unorm24, DepthFormat::Unorm16};
+
+constexpr std::string_view name(DepthFormat F) {
+  constexpr std::array<std::string_view, 3> Names{"fp32", "unorm24", "unorm16"};
+  return Names[static_cast<std::size_t>(F)];
+}
 constexpr std::string_view name(PixelOrder O) {
   return O == PixelOrder::Depth ? "depth" : "ray";
 }
@@ -61,6 +72,11 @@ constexpr bool isOnCores(ExpUnit E) { return !kernelOf(E).empty(); }
 constexpr float nearLimit(Rules R) { return R == Rules::Inria ? 0.2F : 0.01F; }
 
 inline constexpr unsigned MaxZTiles = 16;
+
+/// Of the set-up of triangles (vorion_triangles.h).
+inline constexpr unsigned MaxSubpixelBits = 8;
+/// Of the filters of GPUs. Places of 2^15 texels with them are exact in fp32.
+inline constexpr unsigned MaxFilterBits = 8;
 
 struct Mesh;
 
@@ -100,6 +116,13 @@ struct RenderOptions {
   /// The direction in which a light shines on the mesh, of length 1, in the
   /// world's axes.
   std::optional<std::array<float, 3>> Light;
+  /// Sub-pixel bits of the mesh's corners on the picture: 1 to
+  /// MaxSubpixelBits.
+  unsigned SubpixelBits = MaxSubpixelBits;
+  DepthFormat MeshDepth = DepthFormat::Fp32;
+  /// Bits of the fractions by which texture filters weight texels and levels: 1
+  /// to MaxFilterBits; empty: fp32.
+  std::optional<unsigned> FilterBits;
   /// Whether the mesh in each pixel is read back (RenderResult::MeshShown).
   bool KeepVisible = false;
 
@@ -137,6 +160,18 @@ struct RenderOptions {
 
   float nearLimit() const {
     return Near.value_or(splat::nearLimit(Convention));
+  }
+  /// The factor of 1/z in depths of MeshDepth.
+  float depthScale() const {
+    switch (MeshDepth) {
+    case DepthFormat::Fp32:
+      return 1;
+    case DepthFormat::Unorm24:
+      return nearLimit() * 16777215.0F;
+    case DepthFormat::Unorm16:
+      return nearLimit() * 65535.0F;
+    }
+    return 1;
   }
   /// Whether depth is the distance from the camera, not z.
   bool byDistance() const { return Optics->byDistance(); }

@@ -42,6 +42,14 @@ template <typename Program> void choose(Program &P, const RenderOptions &O) {
     P.NEAR_LIMIT = O.nearLimit();
     P.NEAR_IS_LEFT_OUT = Inria;
   }
+  if constexpr (requires { P.SUBPIXEL_BITS; })
+    if (O.SubpixelBits != MaxSubpixelBits)
+      P.SUBPIXEL_BITS = O.SubpixelBits;
+  if constexpr (requires { P.DEPTH_SCALE; })
+    if (O.MeshDepth != DepthFormat::Fp32)
+      P.DEPTH_SCALE = O.depthScale();
+  if constexpr (requires { P.FILTER_BITS; })
+    P.FILTER_BITS = O.FilterBits;
   if constexpr (requires { P.GROUP; })
     P.GROUP = O.SimtGroup;
   if constexpr (requires { P.RAY_WINDOW; })

@@ -121,7 +121,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   R.Picture = readPicture(L, Forward.frame(), Picture);
   R.Gradients = readGradients(L, Back, Forward.frame(), ShDegree);
   if (Options.KeepVisible)
-    R.MeshShown = readVisible(L, Forward.frame(), Options.Optics->IsParallel);
+    R.MeshShown = readVisible(L, Forward.frame(), Options);
   if (L.failure())
     return *L.failure();
   R.Visible = Forward.frame().seen();

@@ -397,7 +397,8 @@ cl::Buffer resolveMesh(Launcher &Launch, const Frame &F,
   return Picture;
 }
 
-VisibleMesh readVisible(Launcher &Launch, const Frame &F, bool IsParallel) {
+VisibleMesh readVisible(Launcher &Launch, const Frame &F,
+                        const RenderOptions &Options) {
   struct Word {
     float Depth;
     int32_t Triangle;
@@ -414,9 +415,10 @@ VisibleMesh readVisible(Launcher &Launch, const Frame &F, bool IsParallel) {
     for (std::size_t I = 0; I < From.size(); ++I) {
       const Word &W = From[I];
       const bool Is = W.Triangle >= 0 && IsThere(I);
-      Depths.push_back(!Is          ? std::numeric_limits<float>::infinity()
-                       : IsParallel ? -W.Depth
-                                    : 1 / W.Depth);
+      Depths.push_back(!Is ? std::numeric_limits<float>::infinity()
+                       : Options.Optics->IsParallel
+                           ? -W.Depth
+                           : Options.depthScale() / W.Depth);
       Triangles.push_back(Is ? W.Triangle : -1);
     }
   };

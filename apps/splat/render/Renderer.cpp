@@ -289,7 +289,7 @@ Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
   if (KeepPairs)
     R.Sorted = readPairs(Launch, P.frame());
   if (Options.KeepVisible)
-    R.MeshShown = readVisible(Launch, P.frame(), Options.Optics->IsParallel);
+    R.MeshShown = readVisible(Launch, P.frame(), Options);
   if (Plan.Effects.done(effects::PixelLists))
     R.Lists = readLists(Launch, P.frame(), Options);
   if (Plan.Effects.done(effects::Normals)) {
@@ -301,8 +301,7 @@ Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
     Launch.beginStage(Stage::Depth);
     R.Depths = readDepths(Launch, P.frame(), P.drawDepths());
     if (Plan.Effects.done(effects::Mesh))
-      addSurface(*R.Depths,
-                 readVisible(Launch, P.frame(), Options.Optics->IsParallel));
+      addSurface(*R.Depths, readVisible(Launch, P.frame(), Options));
   }
   if (Launch.failure())
     return *Launch.failure();

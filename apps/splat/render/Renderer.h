@@ -41,9 +41,9 @@ cl::Buffer resolve(Launcher &Launch, const Frame &F,
 /// The same over the mesh of the effect \c Mesh, where there is one.
 cl::Buffer resolveMesh(Launcher &Launch, const Frame &F,
                        const RenderOptions &Options);
-/// The mesh in the pixels of \p F, whose camera has parallel rays if \p
-/// IsParallel.
-VisibleMesh readVisible(Launcher &Launch, const Frame &F, bool IsParallel);
+/// The mesh in the pixels of \p F, which was drawn with \p Options.
+VisibleMesh readVisible(Launcher &Launch, const Frame &F,
+                        const RenderOptions &Options);
 /// \p Resolved: the fourth channel is alpha, not transmittance.
 Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
                   bool Resolved = true);

@@ -169,10 +169,14 @@ Expected<Json> drawnJson(const Camera &View, const RenderOptions &O,
               {"stages", stagesJson(Result.Stages)},
               {"total", Total}};
   if (const Mesh *M = O.Surface.get())
-    Report["mesh"] = {{"vertices", M->vertices()},
-                      {"triangles", M->triangles()},
-                      {"textures", M->Textures.size()},
-                      {"light", O.Light ? Json(*O.Light) : Json()}};
+    Report["mesh"] = {
+        {"vertices", M->vertices()},
+        {"triangles", M->triangles()},
+        {"textures", M->Textures.size()},
+        {"subpixel_bits", O.SubpixelBits},
+        {"depth", name(O.MeshDepth)},
+        {"filter_bits", O.FilterBits ? Json(*O.FilterBits) : Json()},
+        {"light", O.Light ? Json(*O.Light) : Json()}};
   return Report;
 }
 
