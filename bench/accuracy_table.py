@@ -54,9 +54,12 @@ def main():
         else:
             energy = ""
         decibels = worst("psnr_db", min, none=float("inf"))
+        first = settings[setting][0]
+        # Points of older versions have a cost without saying so.
+        area = f"{100 * first['lane_area_relative']:.1f} %" if first.get("has_cost", True) else "not modelled"
         print(f"| {setting} | {decibels:.1f} | {worst('ssim', min):.6f} | {worst('largest', max):.2g} "
               f"| {100 * worst('off_share', max):.3f} | {times['cycles']} | {times['equal_area_cycles']} | {times['cores_cycles']} "
-              f"| {energy}{100 * settings[setting][0]['lane_area_relative']:.1f} % |")
+              f"| {energy}{area} |")
     clocked.say(point["clocked_machine"] for point in points)
 
 

@@ -2,14 +2,16 @@
 """Triangles by the clock, beside another rasterizer's RTL and beside Gaussians: docs/rtl.md, docs/meshes.md.
 
 usage: bench/triangles.py traces [FOLDER]
-   or: bench/triangles.py frames [--width N]
+   or: bench/triangles.py frames|accuracy [--width N]
 traces: each trace of FOLDER (../shared/data/skybox) at 128x128 by the sample `triangles` on `prototype`, a row each.
-frames: a ball of triangles alone, Gaussians alone and both, frames a second on `prototype` and `scaled`."""
+frames: a ball of triangles alone, Gaussians alone and both, frames a second on `prototype` and `scaled`.
+accuracy: what `splat accuracy` measures of the mesh's knobs, with such a ball that has a texture; Gaussians as in frames."""
 
 import argparse
 import json
 import math
 import os
+import random
 import struct
 import subprocess
 import sys
@@ -18,6 +20,9 @@ import tempfile
 import command_line
 import scenes
 import study
+
+sys.path.append(os.path.join(scenes.ROOT, "test/Inputs"))
+import png_file  # noqa: E402
 
 SAMPLE = os.path.join(scenes.ROOT, "apps/samples/triangles/trace.py")
 SKYBOX = os.path.join("..", "shared", "data", "skybox")
@@ -28,6 +33,7 @@ NOT_BUSY = ("idle", "commands", "gaussians", "clipped", "lane_slots")
 # A scene, its view, and how far before the camera the middle of the ball is, in the scene's units.
 FRAMES = (("demo", "front", 4.0), ("truck", "overview", 1.5), ("garden_outdoor", "path", 3.0))
 MACHINES = ("prototype", "scaled")
+KNOBS = "subpixel-bits,mesh-depth,filter-bits"
 BALL = 100  # circles of latitude; twice as many of longitude
 
 
@@ -76,24 +82,46 @@ def traces(folder):
                   f"{frame:.2f} | {1e3 * stats['energy']['joules']['value']:.2f} |", flush=True)
 
 
-def write_ball(path, camera, away):
-    """An OBJ of a ball of 4 BALL^2 - 4 BALL triangles whose radius is a quarter of its distance."""
+def write_texture(path):
+    """Squares of 4 x 4 random colours, 256 x 128 texels."""
+    values, rows = random.Random(1), []
+    for _ in range(32):
+        colours = [bytes(values.randrange(256) for _ in range(3)) for _ in range(64)]
+        rows += [b"".join(4 * colour for colour in colours)] * 4
+    png_file.write(path, rows, 3)
+
+
+def write_ball(path, camera, away, texture=None):
+    """An OBJ of a ball of 4 BALL^2 - 4 BALL triangles whose radius is a quarter of its distance. `texture`: the name of a
+    picture beside it that is laid around it twice, in the place of colours."""
     middle = [p + away * row[2] for p, row in zip(camera["position"], camera["rotation"], strict=True)]
     radius, around = away / 4, 2 * BALL
     with open(path, "w", encoding="utf-8") as file:
+        if texture:
+            library = os.path.splitext(path)[0] + ".mtl"
+            with open(library, "w", encoding="utf-8") as material:
+                material.write(f"newmtl ball\nmap_Kd {texture}\n")
+            file.write(f"mtllib {os.path.basename(library)}\nusemtl ball\n")
         for i in range(BALL + 1):
             for j in range(around):
                 a, b = math.pi * i / BALL, 2 * math.pi * j / around
                 at = (math.sin(a) * math.cos(b), math.cos(a), math.sin(a) * math.sin(b))
-                color = " ".join(f"{0.5 + 0.4 * x:.3f}" for x in at)
-                file.write("v " + " ".join(f"{m + radius * x:.6f}" for m, x in zip(middle, at, strict=True)) + f" {color}\n")
+                color = "" if texture else " " + " ".join(f"{0.5 + 0.4 * x:.3f}" for x in at)
+                file.write("v " + " ".join(f"{m + radius * x:.6f}" for m, x in zip(middle, at, strict=True)) + f"{color}\n")
+        if texture:
+            file.writelines(f"vt {2 * j / around} {1 - i / BALL}\n" for i in range(BALL + 1) for j in range(around + 1))
+
+        def corner(i, j):
+            vertex = f"{i * around + j % around + 1}"
+            return f"{vertex}/{i * (around + 1) + j + 1}" if texture else vertex
+
         for i in range(BALL):
             for j in range(around):
-                a, b = i * around + j + 1, i * around + (j + 1) % around + 1
+                a, b, c, d = corner(i, j), corner(i, j + 1), corner(i + 1, j + 1), corner(i + 1, j)
                 if i:
-                    file.write(f"f {a} {b} {b + around}\n")
+                    file.write(f"f {a} {b} {c}\n")
                 if i != BALL - 1:
-                    file.write(f"f {a} {b + around} {a + around}\n")
+                    file.write(f"f {a} {c} {d}\n")
 
 
 def write_nothing(path, camera):
@@ -133,14 +161,32 @@ def frames(width):
                       " | ".join(f"{r['time']['fps']:.1f}" for r in reports) + " |", flush=True)
 
 
+def accuracy(width):
+    with tempfile.TemporaryDirectory() as folder:
+        write_texture(os.path.join(folder, "texture.png"))
+        for name, view, away in FRAMES[:2]:
+            of = demo(folder) if name == "demo" else scenes.shared(name)
+            of = scenes.at_width(of, width, folder)
+            with open(os.path.join(scenes.ROOT, of.cameras), encoding="utf-8") as file:
+                camera = next(c for c in json.load(file) if c["img_name"] == view)
+            ball, out = os.path.join(folder, f"{name}.obj"), os.path.join(folder, name)
+            write_ball(ball, camera, away, "texture.png")
+            subprocess.run(["splat", "accuracy", of.path, "--cameras", of.cameras, "--view", view, "--mesh", ball, "--out", out,
+                            "--knobs", KNOBS, "--products", "0", "--no-host"], check=True, cwd=scenes.ROOT, stdout=sys.stderr)
+            print(f"\n{name}, {view}, {width} pixels wide:\n", flush=True)
+            subprocess.run([sys.executable, os.path.join(scenes.ROOT, "bench/accuracy_table.py"), out + "/accuracy.json"], check=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("traces", "frames"))
+    parser.add_argument("what", choices=("traces", "frames", "accuracy"))
     parser.add_argument("folder", nargs="?", default=os.path.join(scenes.ROOT, SKYBOX))
     parser.add_argument("--width", type=int, default=960, help="of the frames' pictures (960)")
     options = parser.parse_args()
     if options.what == "frames":
         frames(options.width)
+    elif options.what == "accuracy":
+        accuracy(options.width)
     elif os.path.isdir(options.folder):
         traces(options.folder)
     else:

@@ -33,7 +33,8 @@ static Json json(const Candidate &C) {
           {"errors", json(C.Worst)},
           {"cores_errors", C.CoresWorst ? json(*C.CoresWorst) : Json()},
           {"times", Times},
-          {"area", C.LaneArea}};
+          {"area", C.LaneArea},
+          {"has_cost", C.Chosen.hasCost()}};
 }
 
 /// What the settings come to over some views: the worst errors and the sums of

@@ -5,6 +5,7 @@
 #include "io/Inside.h"
 #include "io/Npz.h"
 #include "picture/SceneUnit.h"
+#include "reference/Mesh.h"
 #include "reference/Render.h"
 
 #include <fmt/format.h>
@@ -25,6 +26,7 @@ std::string referenceFile(const SweepPlan &P, const Point &Of) {
 /// The scene, once a reference needs it.
 struct ReadScene {
   std::optional<reference::Gaussians<double>> Scene;
+  std::optional<reference::Mesh> Surface; ///< where there is one
   WorldPoint Origin{};
   reference::Options Options;
 
@@ -41,6 +43,11 @@ struct ReadScene {
                   Rules::Inria, Near);
     Scene = toReference<double>(File->Gaussians);
     Origin = File->Gaussians.Origin;
+    if (P.Surface) {
+      Surface = toReference(*P.Surface, P.Light);
+      for (glm::dvec3 &At : Surface->Positions)
+        At -= glm::dvec3(Origin[0], Origin[1], Origin[2]);
+    }
     Options = toReference(File->DrawnAs);
     Options.Near = double{Near.value_or(0)};
     return Success{};
@@ -51,8 +58,13 @@ Expected<Success> writeReference(const std::string &Path, const ReadScene &Of,
                                  const Camera &View, Support Reach) {
   reference::Options O = Of.Options;
   O.Reach = toReference(Reach);
-  const auto Picture = reference::render(
-      *Of.Scene, toReference<double>(relativeTo(View, Of.Origin)), O);
+  const auto C = toReference<double>(relativeTo(View, Of.Origin));
+  std::optional<reference::Surface<double>> Behind;
+  if (Of.Surface)
+    Behind = reference::surfaceOf(*Of.Surface, C,
+                                  reference::viewOf(*Of.Surface, C, O));
+  const auto Picture =
+      reference::render(*Of.Scene, C, O, Behind ? &*Behind : nullptr);
   std::vector<double> Render;
   Render.reserve(3 * Picture.Render.size());
   for (const auto &Pixel : Picture.Render)

@@ -89,6 +89,9 @@ Expected<RtlRun> parse(const std::string &Line) {
 
 Expected<RtlRun> runRtl(const SweepPlan &P, const Camera &View,
                         const std::function<void(std::string_view)> &Log) {
+  if (P.Surface)
+    return Error{"", "not run: the circuit has no limits of pixels, which a "
+                     "mesh needs"};
   const auto Found = findParts();
   if (!Found)
     return Found.error();

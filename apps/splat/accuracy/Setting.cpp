@@ -1,5 +1,6 @@
 #include "accuracy/Setting.h"
 
+#include "mesh/Mesh.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
@@ -44,6 +45,18 @@ const std::vector<Knob> &allKnobs() {
        {"off", "last:1/4", "last:1/2", "occluded:0.9"},
        ""},
       {KnobId::SkipSaturated, "skip-saturated", {"off", "on"}, ""},
+      {KnobId::SubpixelBits,
+       "subpixel-bits",
+       {"8", "6", "4"},
+       "subpixel-bits",
+       false},
+      {KnobId::MeshDepth, "mesh-depth", namesOf(DepthFormats), "mesh-depth",
+       false},
+      {KnobId::FilterBits,
+       "filter-bits",
+       {"fp32", "8", "6", "4"},
+       "filter-bits",
+       false},
   };
   return All;
 }
@@ -77,19 +90,43 @@ std::vector<std::string> knobNames() {
   return Names;
 }
 
-Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names) {
-  for (const std::string &Name : Names)
-    if (!findIn(allKnobs(), Name))
+/// What pictures with \p Surface, which may be null, lack for knob \p Id; empty
+/// if nothing.
+static std::string_view missing(KnobId Id, const Mesh *Surface) {
+  switch (Id) {
+  case KnobId::SubpixelBits:
+  case KnobId::MeshDepth:
+    return Surface ? "" : "a mesh";
+  case KnobId::FilterBits:
+    return Surface && Surface->hasTextures() ? "" : "a mesh with textures";
+  case KnobId::ZTiles:
+    return Surface && Surface->has(AlphaMode::Blend)
+               ? "a mesh without transparency"
+               : "";
+  default:
+    return "";
+  }
+}
+
+Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names,
+                                       const Mesh *Surface) {
+  for (const std::string &Name : Names) {
+    const Knob *K = findIn(allKnobs(), Name);
+    if (!K)
       return Error{
           "",
           fmt::format("--knobs {}: unknown knob, expected one or more of {}{}",
                       Name, fmt::join(knobNames(), ", "),
                       didYouMean(Name, knobNames())),
           ExitCode::Usage};
+    if (const auto Lacks = missing(K->Id, Surface); !Lacks.empty())
+      return Error{"", fmt::format("--knobs {}: expected {}", Name, Lacks),
+                   ExitCode::Usage};
+  }
   std::vector<Knob> Found;
   for (const Knob &K : allKnobs())
-    if (Names.empty() ||
-        std::find(Names.begin(), Names.end(), K.Name) != Names.end())
+    if (Names.empty() ? missing(K.Id, Surface).empty()
+                      : std::ranges::find(Names, K.Name) != Names.end())
       Found.push_back(K);
   return Found;
 }
@@ -166,6 +203,11 @@ Support Setting::support() const {
   constexpr Support All[] = {Support::Exact, Support::Box3, Support::Square3};
   return *std::ranges::find(All, value(KnobId::Support),
                             [](Support S) { return splat::name(S); });
+}
+
+bool Setting::hasCost() const {
+  return std::ranges::all_of(
+      Choices, [](const Choice &C) { return knob(C.Id).HasCost; });
 }
 
 /// A flag has the values off and on.

@@ -25,6 +25,9 @@ enum class KnobId {
   ZTiles,
   PixelUnit,
   SkipSaturated,
+  SubpixelBits,
+  MeshDepth,
+  FilterBits,
   Reciprocal,
   Sum
 };
@@ -35,6 +38,9 @@ struct Knob {
   std::string Name;                ///< the option without dashes
   std::vector<std::string> Values; ///< the default first
   std::string CoresName; ///< the option of the path `simt`; empty: none
+  /// Whether the time and area of a unit that has this value are modelled.
+  /// Otherwise cycles are those of kernels that compute its result.
+  bool HasCost = true;
 };
 
 /// The knobs of `splat render`.
@@ -49,8 +55,11 @@ const Knob &knob(KnobId Id);
 /// The names of allKnobs().
 std::vector<std::string> knobNames();
 
-/// The knobs \p Names, in the order of allKnobs(); all for an empty list.
-Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names);
+/// The knobs \p Names, in the order of allKnobs(), for pictures with \p
+/// Surface, which may be null; for an empty list all that apply to these.
+/// Error: a knob is unknown or does not apply.
+Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names,
+                                       const Mesh *Surface = nullptr);
 
 /// A knob with a value other than its default.
 struct Choice {
@@ -83,6 +92,8 @@ public:
   ExpUnit exponential() const;
   BlendUnit arithmetic() const;
   Support support() const;
+  /// Whether all its knobs have a modelled cost.
+  bool hasCost() const;
 
   /// For `splat render --path raster`.
   std::vector<std::string> arguments() const;

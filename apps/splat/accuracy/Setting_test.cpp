@@ -1,5 +1,6 @@
 #include "accuracy/Setting.h"
 
+#include "mesh/Mesh.h"
 #include "picture/Options.h"
 
 #include <algorithm>
@@ -55,6 +56,31 @@ TEST(Setting, OneAtATimeHasEachValueOnce) {
             (std::vector<std::string>{"default", "blend=bf16", "blend=fp16",
                                       "tile=32", "tile=16"}));
   EXPECT_FALSE(knobsNamed({"til"}));
+}
+
+TEST(Setting, KnobsOfAMeshNeedOne) {
+  const auto Has = [](const Mesh *Surface, KnobId Id) {
+    const auto All = knobsNamed({}, Surface);
+    return std::ranges::count(*All, Id, &Knob::Id) == 1;
+  };
+  EXPECT_FALSE(Has(nullptr, KnobId::SubpixelBits));
+  const auto Named = knobsNamed({"mesh-depth"});
+  ASSERT_FALSE(Named);
+  EXPECT_EQ(Named.error().What, "--knobs mesh-depth: expected a mesh");
+  Mesh Plain;
+  EXPECT_TRUE(Has(&Plain, KnobId::SubpixelBits));
+  EXPECT_TRUE(Has(&Plain, KnobId::ZTiles));
+  EXPECT_FALSE(Has(&Plain, KnobId::FilterBits));
+  Mesh Glass;
+  Glass.TextureCoordinates.resize(6);
+  Glass.Materials.emplace_back().Alpha = AlphaMode::Blend;
+  Glass.MaterialOf.push_back(0);
+  EXPECT_TRUE(Has(&Glass, KnobId::FilterBits));
+  EXPECT_FALSE(Has(&Glass, KnobId::ZTiles));
+  // Both paths draw with them.
+  EXPECT_EQ(
+      Setting::parse("mesh-depth=unorm16")->coresArguments(),
+      (std::vector<std::string>{"--path", "simt", "--mesh-depth", "unorm16"}));
 }
 
 TEST(Setting, AllExponentialUnitsAreTried) {

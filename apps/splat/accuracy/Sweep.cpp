@@ -165,6 +165,7 @@ Expected<Json> PointMeasurement::measure() {
               {"lane_cycles", LaneCycles},
               {"lane_area_um2", Area},
               {"lane_area_relative", Relative},
+              {"has_cost", Target.Chosen.hasCost()},
               {"made_by", std::move(Made)},
               {"picture", std::move(*Small)},
               {"difference", std::move(*Apart)}};

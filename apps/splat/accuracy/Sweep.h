@@ -8,8 +8,11 @@
 #include "io/Cameras.h"
 #include "scene/SceneFile.h"
 
+#include <array>
 #include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 namespace vorion::splat {
 
@@ -20,6 +23,9 @@ struct SweepPlan {
   /// Options of every `splat render`, including those for reading the scene.
   std::vector<std::string> CommonArguments;
   std::vector<Camera> Views;
+  /// A mesh that is drawn with the Gaussians, in the world, or null.
+  std::shared_ptr<const Mesh> Surface;
+  std::optional<std::array<float, 3>> Light; ///< as RenderOptions has it
   std::vector<Knob> Knobs;
   bool Cores = true; ///< also measure the path `simt`
   /// Whether the chip's joules are a cost, which the machine must then support;

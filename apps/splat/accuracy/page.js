@@ -57,6 +57,9 @@ function changeOf(value, base) {
   return size === '0.0' ? '0.0 %' : `${share > 0 ? '+' : '−'}${size} %`;
 }
 
+// Of a lane, of the default's. Some knobs have no modelled cost.
+const areaOf = e => (e.has_cost ? `${(100 * e.area).toFixed(1)} %` : 'not modelled');
+
 // A colour for each kind of setting; the first that holds decides.
 function kindOf(e, front, best) {
   return e.setting === state.selected ? 'chosen' : e === best ? 'good' : e.setting === 'default' ? 'ink' : front.includes(e) ? 'mark' : 'soft';
@@ -154,7 +157,7 @@ function drawTable(entries, front, base) {
   for (const axis of Object.keys(AXES))
     columns.push([AXES[axis].label, e => e.times[axis] ?? Infinity, e => time(e.times[axis], axis)],
       ['change', e => e.times[axis] ?? Infinity, e => (base ? changeOf(e.times[axis], base.times[axis]) : '')]);
-  columns.push(['lane area', e => e.area, e => `${(100 * e.area).toFixed(1)} %`]);
+  columns.push(['lane area', e => e.area, areaOf]);
   drawEntries(columns, entries, e => e.setting, e => front.includes(e));
 }
 
@@ -186,7 +189,7 @@ function drawRecommended(front) {
     table.append(row);
   }
   box.replaceChildren(element('p', {}, element('b', {}, chosen.setting),
-    `, the ${state.axis === 'chip_joules' ? 'setting with the lowest energy' : 'fastest setting'} with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), element('p', { id: 'off-front' }, whyOffFront(chosen, front)), table);
+    `, the ${state.axis === 'chip_joules' ? 'setting with the lowest energy' : 'fastest setting'} with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area, of the default's: ${areaOf(chosen)}`), element('p', { id: 'off-front' }, whyOffFront(chosen, front)), table);
 }
 
 function drawFree(free, base) {
@@ -194,7 +197,7 @@ function drawFree(free, base) {
   const table = element('table', {}, rowOf(['setting', 'change of cycles', 'PSNR, dB', 'lane area', 'at equal area'], 'th'));
   for (const e of free)
     table.append(rowOf([e.setting, changeOf(e.times.cycles, base.times.cycles), format(e.errors.psnr_db, METRICS.psnr_db),
-      `${(100 * e.area).toFixed(1)} %`, changeOf(e.times.equal_area_cycles, base.times.equal_area_cycles)]));
+      areaOf(e), changeOf(e.times.equal_area_cycles, base.times.equal_area_cycles)]));
   byId('free').replaceChildren(table);
 }
 

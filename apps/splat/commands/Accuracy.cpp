@@ -5,15 +5,23 @@
 #include "commands/AccuracyTrain.h"
 #include "commands/CameraArguments.h"
 #include "commands/Commands.h"
+#include "commands/MeshArguments.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "commands/StudyArguments.h"
 #include "commands/Usage.h"
 #include "device/ClockedMachine.h"
 #include "io/ReportHead.h"
+#include "mesh/Mesh.h"
+#include "picture/View.h"
+#include "render/MeshRules.h"
+#include "scene/formats/Formats.h"
+#include "scene/formats/GltfWriter.h"
 #include "study/Study.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Hash.h"
 #include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Suggest.h"
@@ -21,6 +29,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -37,6 +46,7 @@ using Json = nlohmann::ordered_json;
 struct AccuracyArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
+  MeshArguments Mesh;
   StudyOptions Study;
   std::string AtLeast = "50dB";
   std::vector<std::string> Check, Knobs;
@@ -70,6 +80,72 @@ std::string ownCameras(const AccuracyArguments &A) {
   return A.Study.Folder + "/cameras.json";
 }
 
+/// The mesh beside the Gaussians of the scene, null without any. Only glTF
+/// files have one, so that no other scene is read for it.
+Expected<std::shared_ptr<const Mesh>> loadOwnMesh(const SceneArguments &A) {
+  std::error_code Ignored;
+  if (std::filesystem::is_directory(A.Path, Ignored))
+    return std::shared_ptr<const Mesh>();
+  const auto Content = readFile(A.Path);
+  if (!Content)
+    return Content.error();
+  if (!isGltf(*Content))
+    return std::shared_ptr<const Mesh>();
+  const auto File = loadScene(A);
+  return File ? loadOwnMesh(A, *File)
+              : Expected<std::shared_ptr<const Mesh>>(File.error());
+}
+
+/// Reads the mesh of \p P, whose views must show it.
+Expected<Success> loadMesh(const AccuracyArguments &A, SweepPlan &P) {
+  auto Own = loadOwnMesh(A.Scene);
+  if (!Own)
+    return Own.error();
+  auto Added = loadAddedMesh(A.Mesh);
+  if (!Added)
+    return Added.error();
+  P.Surface = joined(std::move(*Own), std::move(*Added), {});
+  P.Light = A.Mesh.Light;
+  if (P.Light && !P.Surface)
+    return lightWithoutMesh();
+  for (const Camera &View : P.Views) {
+    RenderOptions O;
+    O.Surface = P.Surface;
+    if (auto Through = drawThrough(O, P.CameraFile, {View}); !Through)
+      return Through;
+    if (auto Checked = checkMeshCamera(O, P.CameraFile); !Checked)
+      return Checked;
+  }
+  const std::vector<std::string> Words = wordsOf(A.Mesh);
+  P.CommonArguments.insert(P.CommonArguments.end(), Words.begin(), Words.end());
+  return Success{};
+}
+
+/// Of the mesh and the light of \p P.
+Expected<std::string> hashMesh(const SweepPlan &P) {
+  GltfWriter As;
+  addMesh(As, *P.Surface);
+  const auto Bytes = As.finish();
+  if (!Bytes)
+    return Bytes.error();
+  return P.Light
+             ? fnv1a64(fmt::format("{} {}", *Bytes, fmt::join(*P.Light, " ")))
+             : fnv1a64(*Bytes);
+}
+
+/// Of the knobs of \p P, which have no modelled cost; empty if all have one.
+std::string withoutCost(const SweepPlan &P) {
+  std::vector<std::string> Names;
+  for (const Knob &K : P.Knobs)
+    if (!K.HasCost)
+      Names.push_back(K.Name);
+  return Names.empty()
+             ? ""
+             : fmt::format("no cost modelled: {} (cycles are those of kernels "
+                           "that round)",
+                           fmt::join(Names, ", "));
+}
+
 Expected<SweepPlan> planOf(const AccuracyArguments &A,
                            const DeviceOptions &Machine) {
   SweepPlan P;
@@ -82,7 +158,11 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   if (!Views)
     return Views.error();
   P.Views = std::move(*Views);
-  auto Knobs = knobsNamed(A.Knobs);
+  const std::string SceneWords =
+      fmt::format("{}", fmt::join(P.CommonArguments, " "));
+  if (auto Loaded = loadMesh(A, P); !Loaded)
+    return Loaded.error();
+  auto Knobs = knobsNamed(A.Knobs, P.Surface.get());
   if (!Knobs)
     return Knobs.error();
   P.Knobs = std::move(*Knobs);
@@ -94,9 +174,14 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   if (!From)
     return From.error();
   P.From = std::move(*From);
-  P.From["options"] =
-      fmt::format("{}{} --thumb-width {}", fmt::join(P.CommonArguments, " "),
-                  P.Cores ? "" : " --no-cores", P.ThumbWidth);
+  P.From["options"] = fmt::format("{}{} --thumb-width {}", SceneWords,
+                                  P.Cores ? "" : " --no-cores", P.ThumbWidth);
+  if (P.Surface) {
+    auto Hash = hashMesh(P);
+    if (!Hash)
+      return Hash.error();
+    P.From["mesh"] = std::move(*Hash);
+  }
   return P;
 }
 
@@ -283,12 +368,15 @@ Expected<Success> finish(const AccuracyArguments &A, const SweepPlan &P,
     Host = measureHostTime(P, OnHost, logStudy);
   if (!Host)
     return Host.error();
+  const std::string Costless = withoutCost(P);
   const PageHead Head{
       *Answer, *Host,
-      fmt::format("{}, views {} (chosen on {}), {}x{}, rules inria, errors "
-                  "against the fp64 reference of the same support",
-                  P.ScenePath, names(pointersTo(P.Views)), names(V.Choose),
-                  P.Views.front().Width, P.Views.front().Height),
+      fmt::format("{}{}, views {} (chosen on {}), {}x{}, rules inria, errors "
+                  "against the fp64 reference of the same support{}{}",
+                  P.ScenePath, P.Surface ? " with a mesh" : "",
+                  names(pointersTo(P.Views)), names(V.Choose),
+                  P.Views.front().Width, P.Views.front().Height,
+                  Costless.empty() ? "" : "; ", Costless),
       FloorDb, V.Choose};
   if (auto Written = writeResults(P, Kept, Head, *All); !Written)
     return Written;
@@ -296,6 +384,8 @@ Expected<Success> finish(const AccuracyArguments &A, const SweepPlan &P,
   if (!Text)
     return Text.error();
   printOut("{}\n\n{}", *Answer, *Text);
+  if (!Costless.empty())
+    printOut("{}\n", Costless);
   if (!A.NoHost)
     printOut("\n{}", hostTimeText(*Host, OnHost));
   printOut("{}/index.html\n", escaped(P.Folder));
@@ -367,6 +457,8 @@ Runner addAccuracy(CLI::App &App) {
   const std::size_t First = App.get_options().size();
   addSceneOptions(App, A->Scene);
   App.get_option("scene")->required(false);
+  A->Scene.KeepsMeshes = true;
+  addMeshOptions(App, A->Mesh);
   addCameraOptions(App, A->Cameras, /*Several=*/true);
   takesView(App.add_option("--view", A->Cameras.Views,
                            "Views to measure (default: all)"))

@@ -5,6 +5,8 @@
 #include "vorion/support/Diagnostics.h"
 
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <utility>
 
 namespace vorion::splat {
@@ -38,6 +40,15 @@ void addMeshOptions(CLI::App &App, MeshArguments &A) {
 
 Error lightWithoutMesh() {
   return {"", "--light shines on a mesh, expected --mesh", ExitCode::Usage};
+}
+
+std::vector<std::string> wordsOf(const MeshArguments &A) {
+  std::vector<std::string> Words;
+  if (!A.File.empty())
+    Words.insert(Words.end(), {"--mesh", A.File});
+  if (A.Light)
+    Words.push_back(fmt::format("--light={}", fmt::join(*A.Light, ",")));
+  return Words;
 }
 
 Expected<Mesh> loadMesh(const std::string &Path) {

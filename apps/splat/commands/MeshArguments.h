@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -29,6 +30,9 @@ Error lightWithoutMesh();
 
 /// Reads a mesh, and prints what is left out.
 Expected<Mesh> loadMesh(const std::string &Path);
+
+/// The options of \p A as command-line arguments.
+std::vector<std::string> wordsOf(const MeshArguments &A);
 
 /// \name Meshes to draw, in the world; null without any
 /// @{
