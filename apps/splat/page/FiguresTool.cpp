@@ -6,6 +6,7 @@
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Tool.h"
 
@@ -106,7 +107,9 @@ private:
       return failure(Failed);
     const OwnedText Text(JSValueCreateJSONString(Context, Value, 0, nullptr),
                          JSStringRelease);
-    return Text ? Json::parse(stringOf(Text.get())) : Json();
+    if (!Text)
+      return Json();
+    return parseJson<Json>(stringOf(Text.get()), Page, "a list of figures");
   }
 
   std::string Page;

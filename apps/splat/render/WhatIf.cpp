@@ -206,7 +206,7 @@ measureWhatIf(const std::vector<std::string> &Settings,
     });
     if (!Text)
       return Text.error();
-    Json Said = Json::parse(*Text);
+    Json Said = ownJson<Json>(*Text);
     if (Said["frame"].is_null())
       return Error{"",
                    fmt::format("--what-if {}: the frame has no time, expected "

@@ -1,6 +1,7 @@
 #include "scene/formats/GltfWriter.h"
 
 #include "scene/Activation.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -131,7 +132,7 @@ void GltfWriter::addGaussians(const Scene &S) {
 Expected<std::string> GltfWriter::finish() const {
   Json Whole = Document;
   Whole["buffers"] = {{{"byteLength", Buffer.size()}}};
-  std::string Text = Whole.dump();
+  std::string Text = jsonText(Whole);
   Text.resize((Text.size() + 3) / 4 * 4, ' ');
   const std::size_t Size = 12 + 8 + Text.size() + 8 + Buffer.size();
   if (Size > std::numeric_limits<uint32_t>::max())

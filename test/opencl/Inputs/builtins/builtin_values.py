@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs every overload of the built-in functions of OpenCL C, and compares its results with the standard's.
 
-usage: builtin_values.py BUILD_FOLDER [--share] [--only PATTERN] [--jobs N] [--options TEXT] [--folded SEED]
+usage: builtin_values.py BUILD_FOLDER [--share N] [--only PATTERN] [--jobs N] [--options TEXT] [--folded SEED]
 
 The overloads are those that clang's header declares for OpenCL C 3.0 and 1.2. Of each, hundreds of values are computed:
 special ones, and random ones of fixed seeds. The references are in values/, by family. --folded adds calls with constants
@@ -118,12 +118,12 @@ def is_conversion(overload):
     return overload.name.startswith("convert_")
 
 
-def share_of(found):
-    """Of each function a scalar form and a vector."""
+def share_of(found, forms):
+    """Of each function one form, or a scalar form and a vector."""
     source = random.Random(1)
     by_name = collections.defaultdict(list)
     for each in found:
-        by_name[each[1].name, width_of(each[1]) > 1].append(each)
+        by_name[each[1].name, forms == 2 and width_of(each[1]) > 1].append(each)
     chosen = {id(source.choice(group)) for group in by_name.values()}
     return [each for each in found if id(each) in chosen]
 
@@ -131,7 +131,7 @@ def share_of(found):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build")
-    parser.add_argument("--share", action="store_true", help="one scalar and one vector of each function")
+    parser.add_argument("--share", type=int, choices=(1, 2), help="so many forms of each function: one, or a scalar and a vector")
     parser.add_argument("--only", default="", help="functions whose names match")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--options", default="", help="more options of the kernels' builds")
@@ -146,7 +146,7 @@ def main():
     if not found:
         parser.error(f"no function's name matches {options.only}")
     if options.share:
-        found = share_of(found)
+        found = share_of(found, options.share)
     groups, missing = collections.defaultdict(list), []
     for version, overload in found:
         groups[version, width_of(overload), is_conversion(overload)].append(overload)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs the built-in functions of OpenCL C on the host under clang's undefined-behaviour sanitizer.
 
-usage: sanitized_builtins.py BUILD_FOLDER FOLDER [--share] [--only PATTERN] [--sources PATTERN] [--all] [--jobs N]
+usage: sanitized_builtins.py BUILD_FOLDER FOLDER [--share N] [--only PATTERN] [--sources PATTERN] [--all] [--jobs N]
 
 The library's sources are compiled for the host into FOLDER, what has changed since the last time. Calls, values and
 references are those of builtin_values.py. Functions of images, groups, copies and atomics need the device and are left out.
@@ -40,7 +40,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build")
     parser.add_argument("folder")
-    parser.add_argument("--share", action="store_true", help="one scalar and one vector of each function")
+    parser.add_argument("--share", type=int, choices=(1, 2), help="so many forms of each function: one, or a scalar and a vector")
     parser.add_argument("--only", default="", help="functions whose names match")
     parser.add_argument("--sources", default="", help="files of the library whose names match")
     parser.add_argument("--all", action="store_true", help="report also what the library's pass defines")
@@ -51,7 +51,7 @@ def main():
     os.environ["VORION_ROOT"] = build
     found = [(version, o) for version, o in overloads(build) if version == "CL3.0" and re.search(options.only, o.name)]
     if options.share:
-        found = share_of(found)
+        found = share_of(found, options.share)
     some = [o for _, o in found]
     made_library = library(build, os.path.abspath(options.folder), options.sources,
                            ALL_SANITIZERS if options.all else SANITIZERS)
