@@ -226,6 +226,10 @@ RenderOptions optionsOf(const ViewRequest &R, const ShownScene &Of) {
   // The knob's values are rules.
   O.PixelUnit = *parseTailRule(S.value(KnobId::PixelUnit));
   O.SkipSaturated = S.value(KnobId::SkipSaturated) == "on";
+  O.SubpixelBits = Number(KnobId::SubpixelBits);
+  O.MeshDepth = DepthFormats[S.place(KnobId::MeshDepth)];
+  if (S.place(KnobId::FilterBits) != 0)
+    O.FilterBits = Number(KnobId::FilterBits);
   O.Surface = Of.Surface;
   O.Light = Of.Light;
   O.KeepVisible = Of.Surface != nullptr;

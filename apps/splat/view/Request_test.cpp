@@ -107,7 +107,9 @@ TEST(ViewRequest, EveryKnobReachesTheOptions) {
         A.RasterTile != B.RasterTile || A.Reach != B.Reach ||
         A.ShLimit != B.ShLimit || A.DepthBits != B.DepthBits ||
         A.ZTiles != B.ZTiles || A.PixelUnit.any() != B.PixelUnit.any() ||
-        A.SkipSaturated != B.SkipSaturated)
+        A.SkipSaturated != B.SkipSaturated ||
+        A.SubpixelBits != B.SubpixelBits || A.MeshDepth != B.MeshDepth ||
+        A.FilterBits != B.FilterBits)
         << K.Name;
   }
 }

@@ -411,10 +411,9 @@ std::string Session::describe() const {
   const auto S = scene();
   const Scene &Gaussians = S->File.Gaussians;
   Json Knobs = Json::array(), Cameras = Json::array(), Names = Json::array();
-  const bool HasLayers = S->Surface && S->Surface->has(AlphaMode::Blend);
-  for (const Knob &K : allKnobs())
-    if (K.Id != KnobId::ZTiles || !HasLayers)
-      Knobs.push_back({{"name", K.Name}, {"values", K.Values}});
+  // The list of no names is that of all that the scene has.
+  for (const Knob &K : *knobsNamed({}, S->Surface.get()))
+    Knobs.push_back({{"name", K.Name}, {"values", K.Values}});
   if (S->Found)
     Cameras.push_back(cameraJson(*S->Found));
   else
