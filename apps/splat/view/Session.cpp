@@ -411,8 +411,9 @@ std::string Session::describe() const {
   const auto S = scene();
   const Scene &Gaussians = S->File.Gaussians;
   Json Knobs = Json::array(), Cameras = Json::array(), Names = Json::array();
-  // The list of no names is that of all that the scene has.
-  for (const Knob &K : *knobsNamed({}, S->Surface.get()))
+  // No names ask for all that the scene has.
+  const auto Offered = knobsNamed({}, S->Surface.get());
+  for (const Knob &K : *Offered)
     Knobs.push_back({{"name", K.Name}, {"values", K.Values}});
   if (S->Found)
     Cameras.push_back(cameraJson(*S->Found));
