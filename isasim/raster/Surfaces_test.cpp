@@ -347,8 +347,9 @@ TEST_F(SurfacesTest, GridsCoverEachPixelOnce) {
   }
 }
 
-// A million triangles have their corners in one pixel, each in a list of a
-// fiftieth of them: the nearest of those that cover the sample is found.
+// A million triangles have their corners in one pixel. They are drawn as 50
+// lists, each onto the depths of those before. The nearest triangle that covers
+// the sample is found.
 TEST_F(SurfacesTest, AMillionTrianglesMayLieInAPixel) {
   constexpr uint32_t Lists = 50, Count = 20000;
   constexpr TileCommand Tile{.X = 40, .Y = 50, .Width = 3, .Height = 3};

@@ -224,25 +224,6 @@ void addMeshPrecisionOptions(CLI::App &App, RenderOptions &O) {
       ->check(isBetween(1U, MaxFilterBits));
 }
 
-Expected<Success> checkMeshPrecision(const RenderOptions &O,
-                                     const std::string &Cameras) {
-  const RenderOptions Default;
-  if (!O.Surface && (O.SubpixelBits != Default.SubpixelBits ||
-                     O.MeshDepth != Default.MeshDepth))
-    return usage("--subpixel-bits and --mesh-depth apply to a mesh only, "
-                 "expected --mesh");
-  if (O.FilterBits && !(O.Surface && O.Surface->hasTextures()))
-    return usage("--filter-bits applies to textures only, expected a mesh with "
-                 "some");
-  if (O.Optics->IsParallel && O.MeshDepth != Default.MeshDepth)
-    return Error{Cameras,
-                 fmt::format("--mesh-depth {} is of depths that fall with 1/z, "
-                             "expected fp32 with a camera of model {}",
-                             name(O.MeshDepth), O.Optics->Name),
-                 ExitCode::Usage};
-  return Success{};
-}
-
 CLI::Option *addVectorOption(CLI::App &App, const std::string &Name,
                              const std::string &Example,
                              std::function<void(std::array<float, 3>)> Take,

@@ -50,11 +50,6 @@ void warnOfMissing(const EffectPlan &P, const std::string &Asked);
 /// Declares the options that approximate a mesh.
 void addMeshPrecisionOptions(CLI::App &App, RenderOptions &O);
 
-/// Checks that \p O has a mesh and a camera to which these apply; otherwise a
-/// usage error. \p Cameras is the camera's file, for the message.
-Expected<Success> checkMeshPrecision(const RenderOptions &O,
-                                     const std::string &Cameras);
-
 /// Declares an option of three numbers with commas between them. \p Example is
 /// for the message about others.
 CLI::Option *addVectorOption(CLI::App &App, const std::string &Name,

@@ -19,6 +19,29 @@ Expected<Success> checkMeshCamera(const RenderOptions &O,
                ExitCode::Usage};
 }
 
+Expected<Success> checkMeshPrecision(const RenderOptions &O,
+                                     const std::string &Cameras) {
+  const RenderOptions Default;
+  if (!O.Surface && (O.SubpixelBits != Default.SubpixelBits ||
+                     O.MeshDepth != Default.MeshDepth))
+    return Error{"",
+                 "--subpixel-bits and --mesh-depth apply to a mesh only, "
+                 "expected --mesh",
+                 ExitCode::Usage};
+  if (O.FilterBits && !(O.Surface && O.Surface->hasTextures()))
+    return Error{"",
+                 "--filter-bits applies to textures only, expected a mesh with "
+                 "some",
+                 ExitCode::Usage};
+  if (O.Optics->IsParallel && O.MeshDepth != Default.MeshDepth)
+    return Error{Cameras,
+                 fmt::format("--mesh-depth {} is of depths that fall with 1/z, "
+                             "expected fp32 with a camera of model {}",
+                             name(O.MeshDepth), O.Optics->Name),
+                 ExitCode::Usage};
+  return Success{};
+}
+
 Expected<Success> checkTransparency(const RenderOptions &O, bool WantsDepths,
                                     bool Overlaps) {
   const char *Expected = O.ZTiles != 1                  ? "--ztiles 1"

@@ -14,6 +14,12 @@ namespace vorion::splat {
 Expected<Success> checkMeshCamera(const RenderOptions &O,
                                   const std::string &Cameras);
 
+/// Sub-pixel bits and formats of depths other than the default need a mesh,
+/// filter bits its textures, and integer depths a camera whose depths fall with
+/// 1/z. \p Cameras is the camera's file, for the message.
+Expected<Success> checkMeshPrecision(const RenderOptions &O,
+                                     const std::string &Cameras);
+
 /// Transparent triangles must be drawn without depths beside the picture and
 /// without overlap with the next one.
 Expected<Success> checkTransparency(const RenderOptions &O, bool WantsDepths,

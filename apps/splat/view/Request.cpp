@@ -244,8 +244,10 @@ Expected<Success> checkMesh(const ViewRequest &R, const ShownScene &Of) {
                              "expected no mesh",
                              name(R.Shown)),
                  ExitCode::Usage};
-  if (auto Checked = checkMeshCamera(O, ""); !Checked)
-    return Checked;
+  for (const auto &Checked :
+       {checkMeshCamera(O, ""), checkMeshPrecision(O, "")})
+    if (!Checked)
+      return Checked;
   return checkTransparency(O, R.Shown == Layer::Depth);
 }
 

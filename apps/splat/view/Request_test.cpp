@@ -1,8 +1,10 @@
 #include "lens/Models.h"
+#include "mesh/Mesh.h"
 #include "view/Request.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 using namespace vorion::splat;
@@ -121,6 +123,20 @@ TEST(ViewRequest, DrawsAsTheSceneSays) {
   EXPECT_TRUE(optionsOf({}, S).Antialiased);
   EXPECT_EQ(optionsOf({}, S).Dilation, 0.1F);
   EXPECT_EQ(optionsOf({}, S).nearLimit(), 0.02F);
+}
+
+TEST(ViewRequest, IntegerDepthsNeedPerspective) {
+  ShownScene S;
+  S.Surface = std::make_shared<const Mesh>();
+  ViewRequest R;
+  R.Chosen = *Setting::parse("mesh-depth=unorm16");
+  EXPECT_TRUE(checkMesh(R, S));
+  R.View.Optics.Model = &lenses::Orthographic;
+  const auto Checked = checkMesh(R, S);
+  ASSERT_FALSE(Checked);
+  EXPECT_EQ(Checked.error().What,
+            "--mesh-depth unorm16 is of depths that fall with 1/z, expected "
+            "fp32 with a camera of model ORTHOGRAPHIC");
 }
 
 } // namespace

@@ -235,7 +235,8 @@ Expected<Success> Session::replace(std::string Name,
     return isMeshFile({First, Content.size()})
                ? replaceMesh(std::move(Name), Content)
                : Expected<Success>(File.error());
-  // Written anew after edits, it needs a format that has meshes.
+  // Edits rewrite this file in the format of its ending, which must have
+  // meshes.
   const std::string Path =
       Clock.sceneFile(scene()->Number + 1, File->Meshes > 0 ? ".glb" : "");
   if (auto Written = writeFileAtomically(Path, Content); !Written)

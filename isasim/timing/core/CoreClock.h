@@ -536,8 +536,8 @@ private:
   unsigned Current = 0;
   unsigned LastIssued = 0; ///< a warp: the others come first
   static constexpr unsigned MostWarps = 32;
-  /// Warps that share the issue slots, and by their places when each keeps the
-  /// decoder (see fullAt()): those that holdDecoder() is told of.
+  /// The warps that share the issue slots, and for each the cycle from which it
+  /// keeps the decoder (fullAt()). holdDecoder() reads both.
   std::array<WarpToIssue, MostWarps> Sharing{};
   std::array<uint64_t, MostWarps> FullAts{};
   unsigned Holder = 0; ///< the warp that keeps the decoder from Held

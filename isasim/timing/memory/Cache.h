@@ -3,10 +3,10 @@
 
 #include "timing/common/TimeObserver.h"
 #include "timing/common/Turn.h"
-#include "timing/memory/Arrival.h"
 #include "timing/memory/CacheTags.h"
 #include "vorion/isasim/Timing.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -23,6 +23,38 @@ enum class CacheOp : uint8_t {
   Write,      ///< of some of its bytes: the line is fetched
   WriteWhole, ///< of all: nothing is fetched
   Atomic,
+};
+
+/// When a line that a unit has asked for has come, or its write has been taken,
+/// and which part of the wait belongs to the link. Times are cycles of the
+/// chip.
+struct Arrival {
+  uint64_t At = 0; ///< Turn::Never while it is not known
+  /// \name Its messages are on the link to the L2, or wait for it
+  /// @{
+  uint64_t RequestUntil = 0;         ///< the request until then
+  uint64_t AnswerFrom = Turn::Never; ///< the answer from then until At
+  /// @}
+
+  bool crossesLink() const { return RequestUntil || AnswerFrom != Turn::Never; }
+
+  /// Divides the cycles from \p From until \p Until, in which a unit waited for
+  /// it, in the order of time: \p Spend gets whether a part is of the link, and
+  /// where the part ends.
+  template <typename Function>
+  void divide(uint64_t From, uint64_t Until, Function Spend) const {
+    const auto Part = [&](bool IsLink, uint64_t End) {
+      End = std::min(End, Until);
+      if (End > From) {
+        Spend(IsLink, End);
+        From = End;
+      }
+    };
+    Part(true, RequestUntil);
+    Part(false, AnswerFrom);
+    Part(true, At);
+    Part(false, Until);
+  }
 };
 
 /// Who waits for a request's answer, and what it knows the request by.

@@ -14,7 +14,7 @@ def loads(trace):
 
 
 def hits(lines, ways, sets, victim):
-    """Of a cache whose way of a full set `victim` chooses, which is told of uses."""
+    """Counts the hits of a cache in which victim() chooses the way of a full set that is replaced."""
     cache = {}
     count = 0
     for time, line in enumerate(lines):

@@ -39,8 +39,9 @@ double expUnit(const RenderOptions &O, std::size_t Gaussians) {
 /// a |E| <= |E| - |E'| + d a T. Over all layers the sum of a |E| telescopes to
 /// at most d times the sum of a T, which is at most 1 / (1 - d). A weight is
 /// off by a E + a e T, so all together by 2 d / (1 - d), and the last roundings
-/// add d. Where one arithmetic stops and the other does not, what lies behind
-/// adds the other's T, of which the layer leaves at least 1 - 0.99 (1 + d).
+/// add d. If one arithmetic reaches the cut-off and the other does not, the
+/// layers behind add at most the other's T in front of this layer: the cut-off
+/// over 1 - 0.99 (1 + d), the least share of T that a layer leaves.
 double blendUnit(const RenderOptions &O, std::size_t Gaussians) {
   const bool Fp16 = O.Arithmetic == splat::BlendUnit::Fp16;
   const double U = unitRoundoff(O.Arithmetic);

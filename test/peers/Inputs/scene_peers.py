@@ -79,7 +79,7 @@ def same_plys(what, ours, theirs, rotation=RELATIVE):
 
 
 def axes_of(ending):
-    """What splat-transform does to the axes that a format documents, and splat only where it is told to."""
+    """Options with which splat converts axes as splat-transform always does for files with this ending."""
     return {"spz": ("--axes", "rub:rdf"), "glb": ("--axes", "luf:rdf")}.get(ending, ())
 
 

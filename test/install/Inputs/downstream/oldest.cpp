@@ -1,5 +1,5 @@
-// Somebody else's scheduler of warps: of those that can issue first, the one
-// with the lowest number.
+// A user's warp scheduler: of the warps that can issue earliest, the one with
+// the lowest number goes first.
 #include <vorion/isasim/Plugin.h>
 
 using namespace vorion::isasim;

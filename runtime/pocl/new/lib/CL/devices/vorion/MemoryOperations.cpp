@@ -57,12 +57,15 @@ void release(cl_device_id Device, cl_mem Buffer) {
 
 using Notice = vx_status (*)(vx_device *, uint32_t, uint64_t);
 
+uint32_t addressOf(const pocl_mem_identifier *Id, size_t Offset) {
+  return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr) +
+                               Offset);
+}
+
 void tell(Notice What, void *Data, const pocl_mem_identifier *Id, size_t Offset,
           size_t Size) {
-  const auto Address =
-      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr));
-  What(static_cast<VorionDevice *>(Data)->Opened.get(),
-       static_cast<uint32_t>(Address + Offset), Size);
+  What(static_cast<VorionDevice *>(Data)->Opened.get(), addressOf(Id, Offset),
+       Size);
 }
 
 void tellWritten(void *Data, const pocl_mem_identifier *Id, size_t Offset,
@@ -75,19 +78,13 @@ void tellRead(void *Data, const pocl_mem_identifier *Id, size_t Offset,
   tell(vx_mem_read, Data, Id, Offset, Size);
 }
 
-// The clock is told of a rectangle as of so many bytes.
-
-uint32_t addressOf(const pocl_mem_identifier *Id, size_t Offset) {
-  return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr) +
-                               Offset);
-}
-
 void timeCopy(void *Data, vx_copy_kind Kind, const pocl_mem_identifier *Id,
               size_t Offset, size_t Size, uint32_t From = 0) {
   vx_command_copy(static_cast<VorionDevice *>(Data)->Opened.get(), Kind,
                   addressOf(Id, Offset), From, Size);
 }
 
+// The clock times the copy of a rectangle as one of as many bytes in a row.
 size_t bytesOf(const size_t *Region) {
   return Region[0] * Region[1] * Region[2];
 }
