@@ -227,7 +227,16 @@ def check_restart(browser, address, port):
         browser.wait(f"location.href.includes('{at.fragment}')", 20)
         rest(browser)
         assert shown(browser) == before and "&eye=" in browser.value("location.href")
-        browser.send("Target.closeTarget", targetId=other)
+        browser.send("Target.activateTarget", targetId=other)
+        browser.wait("document.hidden")
+    # A page that nobody looks at does not learn that its server was away, and goes on, too.
+    browser.value("new BroadcastChannel('splat').onmessage = () => { window.hasHeard = true; }; 0")
+    with viewer(SCENE, "--cameras", CAMERAS, "--port", str(port)) as at:
+        browser.send("Target.createTarget", url=at.geturl())
+        browser.wait("window.hasHeard", 20)
+        assert at.fragment not in browser.value("location.href")
+        browser.send("Page.bringToFront")
+        browser.wait(f"location.href.includes('{at.fragment}')", 20)
     print("a restarted server takes the page back")
 
 

@@ -4,7 +4,7 @@ import { token } from './api.js';
 
 const pages = new BroadcastChannel('splat');
 const wait = ms => new Promise(done => setTimeout(done, ms));
-let away = false;
+let away = false, newest = null;
 
 // Nothing secret is sent: another program may listen at this port now.
 async function isBack() {
@@ -28,6 +28,8 @@ export async function waitForServer(say) {
   document.documentElement.dataset.away = 'yes';
   say('splat does not answer. This page goes on when it is started again with the same --port and scene.');
   while (!await isBack()) await wait(1000);
+  // Another page has it already.
+  if (newest) goOn(newest);
   say('splat was started again, and has a new address: open it in this tab or in another, then this page goes on.');
 }
 
@@ -36,8 +38,11 @@ export function announce() {
   pages.postMessage(token);
 }
 
+// A page that nobody looks at asks its server nothing, and learns later that it was restarted.
 pages.onmessage = ({ data }) => {
-  if (away && data !== token) goOn(data);
+  if (data === token) return;
+  newest = data;
+  if (away) goOn(data);
 };
 // An address that is entered into this page's tab has its state, or none and takes this page's.
 let shown = readAddress().state;
