@@ -220,12 +220,61 @@ const LATEX = {
   µ: '\\textmu{}', '²': '\\textsuperscript{2}', '—': '---', '–': '--', '“': '``', '”': "''", '→': '$\\rightarrow$',
 };
 
-// With the rules of the package booktabs. Columns of numbers are at their right.
+const forLatex = text => [...text].map(c => LATEX[c] ?? c).join('');
+
+// The sizes of a table, from the first in which it fits into a column: command, points of a letter of WIDTHS that is as wide as
+// LaTeX's, points between columns.
+const LATEX_SIZES = [['', 9, 12], ['\\footnotesize', 7.6, 6], ['\\scriptsize', 7, 4]];
+const LATEX_COLUMN = 84 / 25.4 * 72.27; // points
+
+// Texts that wrap may do so behind these letters of settings, too.
+const pieces = text => text.split(/(?<=[ ,=_.:])/);
+const widest = (texts, points) => Math.max(...texts.map(text => textWidth(text.trim(), points)));
+
+// The least and the greatest width of a column in points.
+function latexWidths(head, rows, n, points) {
+  const most = widest(rows.map(row => row[n] ?? ''), points), heading = widest(head[n].split(' '), points);
+  const least = isText(rows, n) ? Math.min(most, Math.max(5.5 * points, widest(rows.flatMap(row => pieces(row[n] ?? '')), points))) : most;
+  return { least: Math.max(heading, least), most: Math.max(heading, most) };
+}
+
+// The columns `shown` as a tabular; texts take what numbers leave of the column.
+function tabularOf(head, rows, shown, points, gap) {
+  const widths = shown.map(n => latexWidths(head, rows, n, points)), sum = of => widths.reduce((total, w) => total + of(w), 0);
+  const room = LATEX_COLUMN - gap * (shown.length - 1), spread = Math.min(1, Math.max(0, room - sum(w => w.least)) / Math.max(1e-9, sum(w => w.most - w.least)));
+  const columns = shown.map((n, k) => {
+    const { least, most } = widths[k];
+    return { n, width: least + spread * (most - least), isWrapped: spread < 1 && most > least, side: isText(rows, n) ? 'l' : 'r' };
+  });
+  const heading = ({ n, width, side }) => {
+    const lines = head[n].split(' ').reduce((all, word) => {
+      const longer = all.length ? `${all.at(-1)} ${word}` : word;
+      return all.length && widest([longer], points) > width ? [...all, word] : [...all.slice(0, -1), longer];
+    }, []).map(forLatex);
+    return lines.length > 1 ? `\\begin{tabular}[b]{@{}${side}@{}}${lines.join('\\\\')}\\end{tabular}` : lines[0];
+  };
+  const cell = (text, { width, isWrapped }) => (!isWrapped ? forLatex(text) :
+    `\\parbox[t]{${rounded(width)}pt}{\\raggedright\\strut ${pieces(text).map(forLatex).join('\\allowbreak{}').replaceAll(' \\allowbreak{}', ' ')}\\strut}`);
+  const line = cells => cells.join(' & ') + ' \\\\\n';
+  return `\\begin{tabular}{@{}${columns.map(c => c.side).join('')}@{}}\n\\toprule\n${line(columns.map(heading))}\\midrule\n` +
+    `${rows.map(row => line(columns.map(c => cell(row[c.n] ?? '', c)))).join('')}\\bottomrule\n\\end{tabular}\n`;
+}
+
+// With the rules of the package booktabs, and as wide as a column at most; of too many columns, in parts that all have the
+// first one, and of two runs no part both.
 function latexOf([head, ...rows], title, made) {
-  const escaped = text => [...String(text)].map(c => LATEX[c] ?? c).join('');
-  const line = cells => head.map((_, n) => escaped(cells[n] ?? '')).join(' & ') + ' \\\\\n';
+  const all = head.map((_, n) => n);
+  const fits = (shown, [, points, gap]) => shown.reduce((sum, n) => sum + gap + latexWidths(head, rows, n, points).least, -gap) <= LATEX_COLUMN;
+  const size = LATEX_SIZES.find(s => fits(all, s)) ?? LATEX_SIZES.at(-1), [command, points, gap] = size;
+  const parts = [[0]];
+  for (const n of all.slice(1)) {
+    const last = parts.at(-1), isOther = head[n - 1].endsWith(' A') && head[n].endsWith(' B');
+    if (last.length === 1 || fits(all, size) || (fits([...last, n], size) && !isOther)) last.push(n);
+    else parts.push([0, n]);
+  }
+  const body = parts.map(shown => tabularOf(head, rows, shown, points, gap)).join('\\par\\medskip\n');
   return [title, ...made].map(text => `% ${text.replaceAll(/[\n\r]/g, ' ')}\n`).join('') +
-    `\\begin{tabular}{${head.map((_, n) => (isText(rows, n) ? 'l' : 'r')).join('')}}\n\\toprule\n${line(head)}\\midrule\n${rows.map(line).join('')}\\bottomrule\n\\end{tabular}\n`;
+    (command ? `\\begingroup${command}\\setlength{\\tabcolsep}{${gap / 2}pt}\n${body}\\par\\endgroup\n` : body);
 }
 
 // A table on paper: as wide as a column, or up to a page's width; what is wider yet is set smaller.
@@ -375,7 +424,7 @@ async function save(box, kind) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-// Below each chart and table.
+// Below each chart and table, in the same tile.
 function addMenus() {
   for (const box of document.querySelectorAll('.chart, .wide, .map')) {
     const kinds = ['svg', 'png', 'csv', ...(box.classList.contains('wide') ? ['tex'] : [])];
