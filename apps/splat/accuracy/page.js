@@ -226,6 +226,7 @@ const draw = () => drawAround(() => {
 
 // Seconds of the host for ways to simulate, with the error of their cycles.
 function drawHost() {
+  byId('host-section').hidden = data.host.length === 0;
   const seconds = h => h.seconds.length === 0 ? '–' : [Math.min(...h.seconds), Math.max(...h.seconds)].map(s => s.toPrecision(3))
     .filter((s, n, all) => n === 0 || s !== all[0]).join(' to ') + (h.extrapolated ? ' (extrapolated)' : '');
   const off = h => h.cycles_error_percent === null ? '–' : `${h.cycles_error_percent.toFixed(2)} %`;

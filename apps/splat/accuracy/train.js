@@ -7,7 +7,7 @@ const AXES = {
   machine_seconds: { label: `machine-seconds to ${data.reached_db.toFixed(2)} dB`, of: s => s.machine_seconds, digits: 3 },
   cycles: { label: 'Mcycles per iteration', of: s => s.cycles, scale: 1e-6, digits: 4 },
   ...(data.settings[0].chip_joules && { chip_joules: { label: 'energy of the chip per iteration, mJ', of: s => s.chip_joules, scale: 1e3, digits: 3 } }),
-  area: { label: 'area, um² per pair', of: s => single(s.reciprocal_um2), digits: 0 },
+  area: { label: 'area, µm² per pair', of: s => single(s.reciprocal_um2), digits: 0 },
   error: { label: 'gradient error', of: s => single(s.gradient_error.largest), logarithmic: true },
 };
 const state = { axis: 'machine_seconds', selected: 'default', sort: { n: 0, down: false } };

@@ -106,8 +106,10 @@ std::vector<TrainingChange> changesOf(const Json &A, const Json &B) {
   for (const char *Part : {"settings", "run"})
     for (const auto &[Key, Value] : A.at(Part).items()) {
       const Json Other = B.at(Part).value(Key, Json());
-      // "run" holds hashes of files, too.
-      if (Value != Other && !Value.is_structured())
+      // "run" holds hashes of files, too, and some of the settings.
+      if (Value != Other && !Value.is_structured() &&
+          (Part == std::string_view("settings") ||
+           !A.at("settings").contains(Key)))
         All.push_back({Key, textOf(Value), textOf(Other)});
     }
   return All;

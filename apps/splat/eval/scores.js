@@ -9,7 +9,7 @@ const share = value => value === null ? '–' : number(value, 5);
 function means() {
   for (const [of, mean] of [['held out', data.mean_held_out], ['in training', data.mean_in_training]]) {
     if (!mean) continue;
-    for (const [text, name] of [[`${decibels(mean)} dB`, 'PSNR'], [share(mean.ssim), 'SSIM'], [share(mean.ms_ssim), 'MS-SSIM']])
+    for (const [text, name] of [[`${decibels(mean)} dB`, 'PSNR'], [share(mean.ssim), 'SSIM'], [share(mean.ms_ssim), 'MS-SSIM']].filter(([t]) => t !== '–'))
       byId('figures').append(element('div', {}, element('b', {}, text), element('span', {}, `${name}, mean of ${mean.views} ${of}`)));
   }
 }
@@ -33,7 +33,7 @@ function table() {
 }
 
 const redraw = () => drawAround(() => {
-  byId('chart-box').style.height = `${Math.min(640, 90 + 18 * views.length)}px`;
+  byId('chart-box').style.height = `${120 + 18 * views.length}px`;
   // A series a kind, so that the legend says what the colours are. A paper has no pictures below.
   const isBelow = v => !onPaper && v.name === state.selected;
   const kinds = [
@@ -52,7 +52,7 @@ const redraw = () => drawAround(() => {
     options: {
       indexAxis: 'y', onClick: (_, hit) => { if (hit.length) select(views[hit[0].index].name); },
       plugins: { legend: { display: true, onClick: () => {} } },
-      scales: { x: axis('PSNR of 8-bit values, dB'), y: { ticks: { autoSkip: true } } },
+      scales: { x: axis('PSNR of 8-bit values, dB'), y: { ticks: { autoSkip: false } } },
     },
   });
   if (data.training) drawCurves([data.training]);

@@ -8,6 +8,10 @@ const colour = name => (look ? [...look.matchAll(new RegExp(`--${name}: ([^;]*);
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
 const seriesColour = n => { const all = colour('series').split(/\s+/); return all[n % all.length]; };
 
+// A colour for white paper, as a dark screen has it.
+const onScreen = hex => (isDark.matches && !onPaper ?
+  `#${[1, 3, 5].map(at => Math.round(0.75 * parseInt(hex.slice(at, at + 2), 16) + 64).toString(16).padStart(2, '0')).join('')}` : hex);
+
 // Black or white, whichever shows better on a colour.
 function inkOn(hex) {
   const [r, g, b] = [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16) / 255);
@@ -165,6 +169,21 @@ function checkTitles() {
     }
 }
 
+// And that every bar has its name.
+function checkBars() {
+  for (const [id, { config, scales, data: { labels } }] of Object.entries(charts))
+    if (config.type === 'bar' && config.options.indexAxis === 'y' && scales.y.ticks.length !== labels.length)
+      throw new Error(`${id}: ${scales.y.ticks.length} names of ${labels.length} bars`);
+}
+
+// And that a menu stands below what it saves.
+function checkMenus() {
+  for (const menu of document.querySelectorAll('.save')) {
+    const of = menu.previousElementSibling.getBoundingClientRect(), { left, top, height } = menu.getBoundingClientRect();
+    if (height && (!of.height || Math.abs(left - of.left) > 1 || Math.abs(top - of.bottom) > 8)) throw new Error(`a menu is not below ${menu.previousElementSibling.id}`);
+  }
+}
+
 // And that every figure that is shown can be saved.
 function checkFigures() {
   for (const { name, svg, csv } of figures())
@@ -199,6 +218,8 @@ function openPage(start, redraw, tryOut) {
     redraw();
     checkWidth(width);
     checkTitles();
+    checkBars();
+    checkMenus();
   }
   checkCanvases();
   checkFigures();

@@ -21,7 +21,7 @@ function steps(counts, last) {
 // of an iteration and a value.
 const CURVES = {
   loss: { text: 'mean loss', of: r => meanLosses(r.losses) },
-  gaussians: { text: 'Gaussians', of: r => steps(r.gaussian_counts, r.losses.length) },
+  gaussians: { text: 'Gaussians', whole: true, of: r => steps(r.gaussian_counts, r.losses.length) },
   'scores-curve': { text: 'held-out PSNR, dB', of: r => r.scores, dots: true },
   machine: { text: 'machine time, ms', of: r => r.machine_ms, dots: true },
 };
@@ -29,7 +29,7 @@ const CURVES = {
 // Draws those that have something to show, and hides the boxes of the others.
 function drawCurves(runs) {
   const last = Math.max(1, ...runs.map(r => r.losses.length));
-  for (const [id, { text, of, dots }] of Object.entries(CURVES)) {
+  for (const [id, { text, of, dots, whole }] of Object.entries(CURVES)) {
     const lines = runs.map(r => of(r));
     byId(`${id}-box`).hidden = lines.every(line => line.length === 0);
     if (byId(`${id}-box`).hidden) continue;
@@ -40,7 +40,7 @@ function drawCurves(runs) {
         borderColor: seriesColour(n), backgroundColor: seriesColour(n),
       })) },
       options: {
-        scales: { x: axis('iteration', { min: 0, max: last, ticks: { callback: tickText } }), y: axis(text, { ticks: { callback: tickText } }) },
+        scales: { x: axis('iteration', { min: 0, max: last, ticks: { callback: tickText } }), y: axis(text, { ticks: { callback: tickText, ...(whole && { precision: 0 }) } }) },
         plugins: { legend: { display: runs.length > 1, position: 'bottom' } },
       },
     });

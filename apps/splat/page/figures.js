@@ -434,6 +434,10 @@ function addMenus() {
       return button;
     }));
     if (box.classList.contains('map')) box.append(menu);
-    else box.after(menu);
+    else if (box.parentElement.classList.contains('tiles')) {
+      const tile = element('div', { class: 'tile' });
+      box.replaceWith(tile);
+      tile.append(box, menu);
+    } else box.after(menu);
   }
 }

@@ -98,7 +98,7 @@ function drawReasons() {
     return state.scale === 'percent' ? 100 * cycles / time.cycles : cycles / 1e3;
   };
   const datasets = Object.entries(groups).map(([label, group]) =>
-    ({ label, data: rows.map(r => share(r.time, group.reasons)), backgroundColor: group.colour, barPercentage: 0.95 }))
+    ({ label, data: rows.map(r => share(r.time, group.reasons)), backgroundColor: onScreen(group.colour), barPercentage: 0.95 }))
     .filter(({ data: values }) => values.some(v => v > 0));
   const narrow = byId('reasons-box').clientWidth < 600;
   sizeBox('reasons-box', 110 + (narrow ? 130 : 20) + rows.length * 26);
@@ -219,7 +219,7 @@ function drawEnergy() {
   byId('energy-section').hidden = !known.length;
   if (!known.length) return;
   byId('energy-note').textContent = `mJ of the frame's kernels, with 5 and 95 % of the draws. ` + energies.map((e, n) => e ?
-    `${letter(n) ? letter(n) + ': ' : ''}technology ${e.technology} at ${number(e.volts, 3)} V, ${number(e.chip_watts.value, 2)} W of the chip, ` +
+    `${letter(n) ? `${letter(n)}: t` : 'T'}echnology ${e.technology} at ${number(e.volts, 3)} V, ${number(e.chip_watts.value, 2)} W of the chip, ` +
     `whose area is ${number(e.area.chip_um2.value / 1e6, 1)} mm².` : '').join(' ');
   byId('energies').tHead.replaceChildren(rowOf(['unit', ...runs.flatMap((_, n) => [`mJ ${letter(n)}`.trim(), `% ${letter(n)}`.trim()])], 'th'));
   const row = (name, of, share) => rowOf([name, ...energies.flatMap(e => e ? [millijoules(of(e)), number(100 * share(e), 1)] : ['—', '—'])]);

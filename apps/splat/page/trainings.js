@@ -11,6 +11,7 @@ openPage(() => {
   byId('rows').tBodies[0].replaceChildren(...data.rows.map(row => rowOf(row)));
   redraw();
 }, redraw, () => {
+  if (new Set(data.rows.map(([name]) => name)).size !== data.rows.length) throw new Error('a row is there twice');
   if (charts.loss.data.datasets.length !== data.runs.length) throw new Error('not a curve a run');
   // Hidden, a canvas is empty.
   document.querySelectorAll('[hidden] canvas').forEach(canvas => canvas.remove());

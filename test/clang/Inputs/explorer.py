@@ -1,4 +1,4 @@
-"""What a page of vorion-clang --explorer holds: usage explorer.py timed PAGE PROFILE | unit PAGE | follow KERNEL"""
+"""What a page of vorion-clang --explorer holds: usage explorer.py timed PAGE PROFILE | unit PAGE | narrow PAGE | follow KERNEL"""
 import collections
 import json
 import os
@@ -6,7 +6,11 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "Inputs"))
+import browser
 
 
 def data_of(page):
@@ -34,6 +38,16 @@ def timed(page, profile):
 
 def unit(page):
     print(data_of(page)["profile"]["unit"])
+
+
+def narrow(page):
+    with tempfile.TemporaryDirectory() as scratch:
+        shown = browser.Browser(scratch, reaches=())
+        shown.shape(400, 900)
+        shown.open("file://" + os.path.abspath(page))
+        shown.wait("document.readyState === 'complete' && document.querySelector('#ir td') !== null")
+        print("as wide as the window:", shown.value("document.documentElement.scrollWidth <= innerWidth"))
+        shown.close()
 
 
 def follow(kernel):

@@ -18,8 +18,8 @@ from viewer import ask, refused
 CAPTURE, FOLDER = sys.argv[1:]
 
 
-def train(name, *options):
-    return ["splat", "train", CAPTURE, "-o", os.path.join(FOLDER, name), "--max-gaussians", "300", "--seed", "3", *options]
+def train(name, *options, most=300):
+    return ["splat", "train", CAPTURE, "-o", os.path.join(FOLDER, name), "--max-gaussians", str(most), "--seed", "3", *options]
 
 
 def iteration(browser):
@@ -99,9 +99,9 @@ try:
                           "--html", os.path.join(FOLDER, "a.html"))
     browser.open("about:blank")
     browser.open(at.geturl())
-    browser.wait("document.getElementById('status').textContent === 'the run has ended' && /dB$/m.test(document.getElementById('facts').innerText)")
+    browser.wait("document.getElementById('status')?.textContent === 'the run has ended' && /dB$/m.test(document.getElementById('facts').innerText)")
     assert process.wait(60) == 0
-    subprocess.run(train("b.ply", "--iterations", "12", "--colour-rate", "0.01", "--json", os.path.join(FOLDER, "b.json")), check=True,
+    subprocess.run(train("b.ply", "--iterations", "12", "--colour-rate", "0.01", "--json", os.path.join(FOLDER, "b.json"), most=301), check=True,
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     subprocess.run(train("c.ply", "--iterations", "12"), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     contents = []
