@@ -9,7 +9,8 @@ same source, for one lane as a Linux program (for Spike, as a program of its own
 each engine that the host has, with one host thread and with two, under qemu-riscv32 and under Spike, one right after
 the other. The figures are medians over the rounds, each with the greatest distance of a round from it. Rates are by
 processor time. The gain of a second thread is by wall time: it needs a quiet machine, or --realtime (chrt -f, as
-root). What qemu and Spike execute is counted on a machine of one lane that runs the same object code.
+root). What qemu and Spike execute is counted on a machine of one lane that runs the same object code,
+which is timed there, too.
 
 The share of the limit is what the translator executes of a warp's instructions a second, of the additions of 16 words
 that the host can do (limit.c): no instruction that computes takes less.
@@ -106,11 +107,11 @@ def spike_repeats(repeats):
 
 
 def variants(repeats):
-    """Scalar programs: for qemu, two that tell what one repetition executes, and for Spike."""
+    """Scalar programs: for qemu, the same for a machine of one lane, two that tell what one repetition executes, and for Spike."""
     image = "-Wl,-T," + path("image.ld")
     yield ".linux", [f"-DREPEATS={repeats}"]
-    for number in (1, 2):
-        yield f".{number}", [f"-DREPEATS={number}", "-DCOUNTED", image]
+    for suffix, number in ((".lane", repeats), (".1", 1), (".2", 2)):
+        yield suffix, [f"-DREPEATS={number}", "-DCOUNTED", image]
     if has_spike():
         yield ".spike", [f"-DREPEATS={spike_repeats(repeats)}", "-DSPIKE", image]
 
@@ -256,9 +257,14 @@ def measure(name, rounds):
     others = {"qemu": (scalar_repeats, [*QEMU, f"./{name}.linux"], [])}
     if has_spike():
         others["spike"] = (spike_repeats(scalar_repeats), [*SPIKE, name + ".spike"], [])
-    total, most = None, []
+    total, most, alone = None, [], []
     for _ in range(rounds):
         most.append(limits())
+        if "translator" in engines:
+            text, run_stats = simulate(name + ".lane", "--threads", "1", "--config", "one-lane.json")
+            if text != expected:
+                raise RuntimeError(f"{name}: {text} translated for one lane, {expected} expected")
+            alone.append(run_stats["host_cpu_seconds"])
         for (engine, threads), into in stats.items():
             text, run_stats = simulate(name + ".elf", "--threads", str(threads), "--set", "engine=" + engine, *arguments(name))
             text = depths_sum() if name == "project" else text
@@ -276,6 +282,8 @@ def measure(name, rounds):
     rates = {engine: Rate(total["lane_instructions"], [s["host_cpu_seconds"] for s in stats[engine, 1]])
              for engine in engines}
     rates |= {other: Rate(instructions * repeats, seconds) for other, (repeats, _, seconds) in others.items()}
+    if alone:
+        rates["lane"] = Rate(instructions * scalar_repeats, alone)
     lanes = total["lane_instructions"] / total["warp_instructions"]
     shares = {engine: rates[engine].value / lanes / statistics.median(limit[engine] for limit in most)
               for engine in engines if engine in most[0]}
@@ -320,13 +328,13 @@ def host():
 
 
 COLUMNS = {"interpreter": "interpreter", "translator": "translator", "translator-avx2": "translator, AVX2",
-           "qemu": "qemu-riscv32", "spike": "Spike"}
+           "qemu": "qemu-riscv32", "spike": "Spike", "lane": "one lane"}
 
 
 def table(results):
     yield (f"| program | active lanes | {' | '.join(COLUMNS.values())} | translator over qemu | AVX2 over qemu | "
-           "translator's share of the limit | AVX2's | 2 threads over 1 |")
-    yield "|---|" + "--:|" * (len(COLUMNS) + 6)
+           "one lane over qemu | translator's share of the limit | AVX2's | 2 threads over 1 |")
+    yield "|---|" + "--:|" * (len(COLUMNS) + 7)
     for r in results:
         rates, gains, shares = r["rates"], r["two_threads_over_one"], r["share_of_limit"]
 
@@ -337,7 +345,7 @@ def table(results):
             return f"{100 * shares[engine]:.0f} %" if engine in shares else ""
         cells = [str(rates.get(key, "")) for key in COLUMNS]
         fast = ("translator", "translator-avx2")
-        yield (f"| {TITLES[r['program']]} | {r['active_lanes']:.1f} | {' | '.join(cells)} | {' | '.join(map(over, fast))} | "
+        yield (f"| {TITLES[r['program']]} | {r['active_lanes']:.1f} | {' | '.join(cells)} | {' | '.join(map(over, (*fast, 'lane')))} | "
                f"{' | '.join(map(share, fast))} | {gains.get('translator', gains['interpreter']):.2f}x |")
 
 

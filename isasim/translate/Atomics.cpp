@@ -2,10 +2,9 @@
 // has them: those in local memory, and additions without a result in global
 // memory. All others are the interpreter's.
 
+#include "translate/AtomicWord.h"
 #include "translate/Places.h"
 #include "translate/Value.h"
-
-#include <cassert>
 
 namespace vorion::isasim::translate {
 
@@ -17,50 +16,6 @@ namespace {
 // What a function of writeAtomic() takes, and where it leaves the results.
 const Zmm Addresses = zmm0, Operands = zmm1;
 constexpr int NumFunctionZmms = 4; // with two of its own
-
-Amo kindOf(Op O) {
-  switch (O) {
-#define AMO(OP, KIND)                                                          \
-  case Op::OP:                                                                 \
-    return Amo::KIND;
-#include "core/insns/memory.def"
-  default:
-    assert(false && "no atomic");
-    return Amo::Add;
-  }
-}
-
-/// \p New, which is the operand, becomes what the word becomes that was
-/// \p Old.
-void apply(CodeGenerator &E, Amo Kind, const Reg32 &New, const Reg32 &Old) {
-  switch (Kind) {
-  case Amo::Add:
-    return E.add(New, Old);
-  case Amo::Xor:
-    return E.xor_(New, Old);
-  case Amo::And:
-    return E.and_(New, Old);
-  case Amo::Or:
-    return E.or_(New, Old);
-  case Amo::Min:
-    E.cmp(Old, New);
-    return E.cmovl(New, Old);
-  case Amo::Max:
-    E.cmp(Old, New);
-    return E.cmovg(New, Old);
-  case Amo::Minu:
-    E.cmp(Old, New);
-    return E.cmovb(New, Old);
-  case Amo::Maxu:
-    E.cmp(Old, New);
-    return E.cmova(New, Old);
-  case Amo::Swap:
-    return;
-  case Amo::Cas:
-  case Amo::CasPair:
-    assert(false && "not translated");
-  }
-}
 
 } // namespace
 
@@ -84,7 +39,7 @@ void Emitter::atomic(const GuestInsn &G) {
   };
   Move(Addresses, guest(I->Rs1));
   Move(Operands, guest(I->Rs2));
-  call(Atomics[{kindOf(G.Opcode), !isSink(I->Rd)}]);
+  call(Atomics[{atomicOf(G.Opcode), !isSink(I->Rd)}]);
   test(rcx, rcx);
   jz(toInterpreter());
   inc(qword[rdi + VORION_PLACE(Count.Atomics)]);
@@ -181,7 +136,7 @@ void Emitter::writeAtomic(Amo Kind, bool HasResult, Label &Begin) {
     mov(eax, Word);
     if (HasResult)
       mov(Operand, eax);
-    apply(*this, Kind, r11d, eax);
+    applyAtomic(*this, Kind, r11d, eax);
     mov(Word, r11d);
     if (Kind == Amo::Add)
       return;

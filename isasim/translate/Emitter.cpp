@@ -1,7 +1,8 @@
 //===- Emitter.cpp - a region as host code --------------------------------===//
 //
 // A region is written twice, for all lanes active and for some of them, with
-// the same guest registers in the same host registers. It is entered as the
+// the same guest registers in the same host registers, and once more for one
+// lane where a warp of one was found (lane/). It is entered as the
 // interpreter's handlers are (core/State.h, Handler), and ends in a tail call
 // of one. What it does not do itself, or finds out of the ordinary, it leaves
 // to the interpreter's handler of that instruction before it has changed
@@ -28,10 +29,6 @@ namespace {
 constexpr int FirstGuestZmm = 9;
 constexpr int NumZmms = 32;
 
-/// A loop's body counts as much as this many times the code around it.
-constexpr uint64_t LoopWeight = 8;
-constexpr unsigned DeepestLoop = 6;
-
 /// What a caller finds as it was.
 constexpr Reg64 KeptRegisters[] = {rbx, rbp, r12, r13, r14, r15};
 
@@ -40,51 +37,26 @@ constexpr Reg64 KeptRegisters[] = {rbx, rbp, r12, r13, r14, r15};
 Emitter::Emitter(VectorUnit Unit, const ExecTable &ExecIn,
                  const CodeTable &CodeIn,
                  const std::vector<GuestInsn> &RegionIn,
-                 std::span<uint8_t> Buffer)
-    : HostVectors(Unit, Buffer), Exec(ExecIn), Code(CodeIn), Region(RegionIn) {
+                 const OneLaneCode &OneLaneIn, std::span<uint8_t> Buffer)
+    : HostVectors(Unit, Buffer), Exec(ExecIn), Code(CodeIn), Region(RegionIn),
+      OneLane(OneLaneIn) {
   setDefaultJmpNEAR(true);
   allocate();
   findStackUses();
 }
 
 void Emitter::allocate() {
-  uint64_t Uses[NumRegisters] = {};
-  for (const GuestInsn &G : Region) {
-    if (G.Is == Kind::Other)
-      continue;
-    uint64_t Weight = 1;
-    for (unsigned L = 0; L != std::min(G.Loops, DeepestLoop); ++L)
-      Weight *= LoopWeight;
-    const InsnInfo &Info = InsnTable[static_cast<unsigned>(G.Opcode)];
-    if (Info.Rs1 != File::None)
-      Uses[numberOf(G.I->Rs1)] += Weight;
-    if (G.IsInStacks)
-      Uses[numberOf(StackPointer)] += Weight;
-    if (Info.Rs2 != File::None)
-      Uses[numberOf(G.I->Rs2)] += Weight;
-    if (Info.Rs3 != File::None)
-      Uses[numberOf(G.I->Rs3)] += Weight;
-    if (Info.Rd != File::None) {
-      Uses[numberOf(G.I->Rd)] += Weight;
-      Written[numberOf(G.I->Rd)] = true;
-    }
-    Rounds |= G.Is == Kind::Float;
-  }
-  Uses[XBase] = 0; // a number
-  Uses[SinkRegister] = 0;
-  std::vector<unsigned> Order;
-  for (unsigned R = 0; R != NumRegisters; ++R) {
-    Zmms[R] = -1;
-    if (Uses[R])
-      Order.push_back(R);
-  }
-  std::ranges::sort(Order, [&](unsigned A, unsigned B) {
-    return std::pair(Uses[B], A) < std::pair(Uses[A], B);
-  });
+  const RegisterUses Uses = usesOf(Region);
+  std::ranges::copy(Uses.Written, Written);
+  Rounds = std::ranges::any_of(
+      Region, [](const GuestInsn &G) { return G.Is == Kind::Float; });
+  std::ranges::fill(Zmms, -1);
   if (!isWide())
     return;
-  for (size_t N = 0; N != Order.size() && FirstGuestZmm + N != NumZmms; ++N)
-    Zmms[Order[N]] = static_cast<int>(FirstGuestZmm + N);
+  int Next = FirstGuestZmm;
+  for (const unsigned R : Uses.MostUsed)
+    if (Next != NumZmms)
+      Zmms[R] = Next++;
 }
 
 int Emitter::zmmOf(uint16_t Register) const { return Zmms[numberOf(Register)]; }
@@ -231,6 +203,11 @@ void Emitter::writeEntries() {
       mov(rax, reinterpret_cast<uint64_t>(original(G.I, G.Opcode)));
       jmp(rax);
       L(Nearest);
+    }
+    if (const auto At = OneLane.Entries.find(G.I);
+        !Full && At != OneLane.Entries.end()) {
+      cmp(dword[rdi + VORION_PLACE(LaneCount)], 1);
+      je(At->second);
     }
     lea(rcx, ptr[rip + Labels[Full][G.I]]);
     jmp(*Prologue);

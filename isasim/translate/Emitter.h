@@ -6,6 +6,7 @@
 #include "translate/HeldVectors.h"
 #include "translate/HostVectors.h"
 #include "translate/Region.h"
+#include "translate/lane/OneLane.h"
 
 #include <deque>
 #include <functional>
@@ -48,9 +49,11 @@ struct Entry {
 /// rax, rcx, rdx, rsi, r11 and k2 to k4 are for one instruction.
 class Emitter : public HostVectors {
 public:
-  /// \p Buffer is written; the code may be executed anywhere else.
+  /// \p Buffer, in front of which \p OneLane lies, is written; the code may be
+  /// executed anywhere else, with that of \p OneLane as far in front.
   Emitter(VectorUnit Unit, const ExecTable &Exec, const CodeTable &Code,
-          const std::vector<GuestInsn> &Region, std::span<uint8_t> Buffer);
+          const std::vector<GuestInsn> &Region, const OneLaneCode &OneLane,
+          std::span<uint8_t> Buffer);
 
   /// The whole region. Throws Xbyak::Error where the buffer is too small.
   void write();
@@ -187,6 +190,7 @@ private:
   const ExecTable &Exec;
   const CodeTable &Code;
   const std::vector<GuestInsn> &Region;
+  const OneLaneCode &OneLane; ///< without entries if there is none
   std::vector<Entry> Entries;
   std::vector<std::function<void()>> Later;
 

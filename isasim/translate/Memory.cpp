@@ -14,27 +14,6 @@ namespace vorion::isasim::translate {
 using namespace Xbyak;
 using namespace Xbyak::util;
 
-namespace {
-
-struct Element {
-  int Bytes;
-  bool IsSigned;
-};
-
-Element elementOf(Op O) {
-  switch (O) {
-#define LOAD(OP, T)                                                            \
-  case Op::OP:                                                                 \
-    return {sizeof(T), static_cast<T>(-1) < 0};
-#define STORE(OP, T) LOAD(OP, T)
-#include "core/insns/memory.def"
-  default:
-    return {};
-  }
-}
-
-} // namespace
-
 /// The first active lane's word of \p From in every lane of \p To, and in eax.
 void Emitter::spreadFirst(const Zmm &To, const Zmm &From) {
   if (!isFull() && !isWide()) {

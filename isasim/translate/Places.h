@@ -27,6 +27,9 @@ inline constexpr int InGlobal = offsetof(MemoryView, Global),
                      InHigh = offsetof(MemoryView, High),
                      InRest = offsetof(MemoryView, Rest),
                      InWhole = offsetof(MemoryView, Whole),
-                     InShift = offsetof(MemoryView, StackShift);
+                     InShift = offsetof(MemoryView, StackShift),
+                     InImageWritable = offsetof(MemoryView, ImageWritable),
+                     InNumImageWritable =
+                         offsetof(MemoryView, NumImageWritable);
 
 } // namespace vorion::isasim::translate

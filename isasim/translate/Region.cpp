@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <set>
 
 namespace vorion::isasim::translate {
 
@@ -161,6 +162,27 @@ bool endsPath(const GuestInsn &G) {
 
 using Found = std::map<const Insn *, GuestInsn>;
 
+/// Where a branch or jump goes, as far as the code says it: a jalr does behind
+/// the auipc of its address, as far calls are written. Else nullptr.
+const Insn *targetOf(const CodeTable &Code, const GuestInsn &G) {
+  if (G.Is == Kind::Branch || G.Is == Kind::Jump)
+    return G.I + (G.I->Imm >> 2);
+  if (G.Is != Kind::Indirect || G.I == Code.begin())
+    return nullptr;
+  const Insn *Before = G.I - 1;
+  const std::optional<Decoded> D = decode(Before->Word);
+  if (!D || D->Opcode != Op::RV_AUIPC || Before->Rd != G.I->Rs1)
+    return nullptr;
+  const auto To = static_cast<uint32_t>(Before->Imm + G.I->Imm);
+  const Insn *Target = Code.find(To);
+  return To % 4 == 0 && Target != Code.begin() + Code.count() ? Target
+                                                              : nullptr;
+}
+
+bool isCall(const GuestInsn &G) {
+  return (G.Is == Kind::Jump || G.Is == Kind::Indirect) && !isSink(G.I->Rd);
+}
+
 /// Follows the code from Head on.
 Found follow(VectorUnit Unit, const CodeTable &Code, const Insn *Head) {
   Found All;
@@ -175,8 +197,8 @@ Found follow(VectorUnit Unit, const CodeTable &Code, const Insn *Head) {
       if (!D)
         break;
       GuestInsn G{I, D->Opcode, kindOf(Unit, D->Opcode, I)};
-      if (G.Is == Kind::Branch || G.Is == Kind::Jump)
-        Paths.push_back(I + (I->Imm >> 2));
+      if (const Insn *To = targetOf(Code, G))
+        Paths.push_back(To);
       All.emplace(I, G);
       if (endsPath(G))
         break;
@@ -185,17 +207,16 @@ Found follow(VectorUnit Unit, const CodeTable &Code, const Insn *Head) {
   return All;
 }
 
-void markLeaders(Found &All) {
+void markLeaders(const CodeTable &Code, Found &All) {
   const auto Lead = [&](const Insn *I) {
     if (const auto At = All.find(I); At != All.end())
       At->second.Leads = true;
   };
   for (const auto &[I, G] : All)
-    if (G.Is == Kind::Branch || G.Is == Kind::Jump) {
-      const Insn *To = I + (I->Imm >> 2);
+    if (const Insn *To = targetOf(Code, G)) {
       Lead(To);
       // A way back is a loop of what lies between.
-      if (To <= I)
+      if (To <= I && !isCall(G))
         for (auto At = All.lower_bound(To); At != All.end() && At->first <= I;
              ++At)
           ++At->second.Loops;
@@ -216,12 +237,67 @@ bool isWorthEntering(const Found &All, const Insn *From) {
   return Count == WorthEntering;
 }
 
+/// A loop's body counts as much as this many times the code around it.
+constexpr uint64_t LoopWeight = 8;
+constexpr unsigned DeepestLoop = 6;
+
 } // namespace
+
+Element elementOf(Op O) {
+  switch (O) {
+#define LOAD(OP, T)                                                            \
+  case Op::OP:                                                                 \
+    return {sizeof(T), static_cast<T>(-1) < 0};
+#define STORE(OP, T) LOAD(OP, T)
+#include "core/insns/memory.def"
+  default:
+    return {};
+  }
+}
+
+RegisterUses usesOf(const std::vector<GuestInsn> &Region) {
+  RegisterUses Result;
+  uint64_t Uses[NumRegisters] = {};
+  for (const GuestInsn &G : Region) {
+    if (G.Is == Kind::Other)
+      continue;
+    uint64_t Weight = 1;
+    for (unsigned L = 0; L != std::min(G.Loops, DeepestLoop); ++L)
+      Weight *= LoopWeight;
+    const InsnInfo &Info = InsnTable[static_cast<unsigned>(G.Opcode)];
+    if (Info.Rs1 != File::None)
+      Uses[numberOf(G.I->Rs1)] += Weight;
+    if (G.IsInStacks)
+      Uses[numberOf(StackPointer)] += Weight;
+    if (Info.Rs2 != File::None)
+      Uses[numberOf(G.I->Rs2)] += Weight;
+    if (Info.Rs3 != File::None)
+      Uses[numberOf(G.I->Rs3)] += Weight;
+    if (Info.Rd != File::None) {
+      Uses[numberOf(G.I->Rd)] += Weight;
+      Result.Written[numberOf(G.I->Rd)] = true;
+    }
+  }
+  Uses[XBase] = 0; // a number
+  Uses[SinkRegister] = 0;
+  for (unsigned R = 0; R != NumRegisters; ++R)
+    if (Uses[R])
+      Result.MostUsed.push_back(R);
+  std::ranges::sort(Result.MostUsed, [&](unsigned A, unsigned B) {
+    return std::pair(Uses[B], A) < std::pair(Uses[A], B);
+  });
+  return Result;
+}
 
 std::vector<GuestInsn> findRegion(VectorUnit Unit, const CodeTable &Code,
                                   const Insn *Head) {
   Found All = follow(Unit, Code, Head);
-  markLeaders(All);
+  markLeaders(Code, All);
+  // What is called here may be called from elsewhere.
+  std::set<const Insn *> Called;
+  for (const auto &[I, G] : All)
+    if (const Insn *To = targetOf(Code, G); To && isCall(G))
+      Called.insert(To);
   for (auto &[I, G] : All) {
     const auto Before = All.find(I - 1);
     const Kind Last = Before == All.end() ? Kind::Integer : Before->second.Is;
@@ -230,7 +306,7 @@ std::vector<GuestInsn> findRegion(VectorUnit Unit, const CodeTable &Code,
         Last == Kind::Jump || Last == Kind::Indirect || Last == Kind::Lanes;
     G.Leads |= Returns;
     const bool Begins = I == Head || (G.Leads && G.Loops != 0) || Returns ||
-                        Last == Kind::Other;
+                        Last == Kind::Other || Called.contains(I);
     if (Begins && G.Is != Kind::Other && isWorthEntering(All, I))
       G.Leads = G.Enters = true;
   }

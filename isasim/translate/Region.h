@@ -52,11 +52,25 @@ struct GuestInsn {
   bool IsInStacks = false;
 };
 
+/// What a load or store accesses.
+struct Element {
+  int Bytes;
+  bool IsSigned;
+};
+Element elementOf(Op O);
+
 /// Instructions that \p Head reaches by branches, jumps and falling through,
 /// nearest first until there are enough; in the order of their addresses.
 /// Empty if it is not worth it.
 std::vector<GuestInsn> findRegion(VectorUnit Unit, const CodeTable &Code,
                                   const Insn *Head);
+
+/// Of a region, by numberOf().
+struct RegisterUses {
+  std::vector<unsigned> MostUsed; ///< those that are used, the most first
+  bool Written[NumRegisters] = {};
+};
+RegisterUses usesOf(const std::vector<GuestInsn> &Region);
 
 /// Sets GuestInsn::HasOneAddress and IsInStacks of a region's loads and stores
 /// by what \p S has in its registers, if it stands in the region, and what

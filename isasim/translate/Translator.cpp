@@ -77,10 +77,16 @@ void Translator::seen(const Insn *At, uint64_t Instructions,
       std::make_unique_for_overwrite<Line[]>(RegionBytes / sizeof(Line));
   const std::span<uint8_t> Bytes(Buffer[0].Bytes, RegionBytes);
   try {
-    translate::Emitter E(Unit, Exec, Code, Region, Bytes);
+    translate::OneLaneCode OneLane;
+    if (Warp && Warp->LaneCount == 1)
+      OneLane = translate::writeForOneLane(Exec, Code, Region, Bytes);
+    const size_t Front =
+        (OneLane.Bytes + sizeof(Line) - 1) / sizeof(Line) * sizeof(Line);
+    translate::Emitter E(Unit, Exec, Code, Region, OneLane,
+                         Bytes.subspan(Front));
     E.write();
     E.ready();
-    std::byte *Base = Host->add(Bytes.first(E.getSize()));
+    std::byte *Base = Host->add(Bytes.first(Front + E.getSize()));
     if (!Base) {
       // Full, or the host allows no such memory: never again.
       Cost = UINT64_MAX;
@@ -92,7 +98,7 @@ void Translator::seen(const Insn *At, uint64_t Instructions,
     for (const translate::Entry &In : E.entries()) {
       // The interpreter's handlers have this form, too.
       Code.setHandler(In.At, In.Full,
-                      reinterpret_cast<Handler>(Base + In.Offset));
+                      reinterpret_cast<Handler>(Base + Front + In.Offset));
       Done.insert(In.At);
     }
   } catch ([[maybe_unused]] const Xbyak::Error &Failed) {

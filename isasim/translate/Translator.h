@@ -24,11 +24,11 @@ public:
   /// That, in words.
   static const char *needs();
 
-  /// What is to be executed for each instruction that is translated: ten
-  /// times what the interpreter does meanwhile, which is some 3 us against 2
-  /// ns. So translations that turn out to be useless cost little of what
-  /// programs take.
-  static constexpr uint64_t UsualCost = 15000;
+  /// What is to be executed for each instruction that is translated: two to
+  /// three times what the interpreter does meanwhile, which is some 3 us
+  /// against 2 ns. So translations that turn out to be useless cost little of
+  /// what programs take.
+  static constexpr uint64_t UsualCost = 4000;
 
   /// Translates parts of \p Code, which \p Exec executes otherwise, for \p
   /// Unit, which the host has. Code and Exec live longer.
