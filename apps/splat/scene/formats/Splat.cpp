@@ -6,8 +6,9 @@
 // x, y, z, where 128 is zero. Degree 0. The format has no mark by which to
 // know it, so positions and scales beyond 1e9 and negative scales, which no
 // scene has but other files soon do, are errors. So are files of which most
-// rotations are not 1 long, and whatever ForeignFile.h knows. A scale of zero
-// becomes the smallest normal float, whose logarithm is finite.
+// rotations are not 1 long, and whatever ForeignFile.h knows. Rotations of
+// spheres have no effect, and converters of point clouds write 255, 0, 0, 0. A
+// scale of zero becomes the smallest normal float, whose logarithm is finite.
 #include "scene/ForeignFile.h"
 #include "scene/SceneFile.h"
 #include "scene/formats/Dequantize.h"
@@ -33,6 +34,13 @@ bool isUnit(const float *Quat) {
   for (std::size_t K = 0; K < 4; ++K)
     Square += double{Quat[K]} * double{Quat[K]};
   return Square == 0 || std::abs(std::sqrt(Square) - 1) <= 0.05;
+}
+
+/// Whether the scales of \p Record are equal and not zero.
+bool isSphere(Bytes Record) {
+  const auto First = load<float>(Record, 12);
+  return First > 0 && First == load<float>(Record, 16) &&
+         First == load<float>(Record, 20);
 }
 
 } // namespace
@@ -81,7 +89,7 @@ Expected<SceneFile> parseSplat(const std::string &Where, Bytes File,
     for (std::size_t K = 0; K < 4; ++K)
       S.Quats[4 * I + K] =
           (static_cast<float>(byteAt(Record, 28 + K)) - 128) / 128;
-    Units += isUnit(&S.Quats[4 * I]);
+    Units += isUnit(&S.Quats[4 * I]) || isSphere(Record);
   }
   // Other files of numbers get here, too.
   if (2 * Units < Count)

@@ -41,6 +41,25 @@ TEST(Splat, BytesOfARecord) {
   EXPECT_EQ(S.Quats, (std::vector<float>{0.5, -0.5, 0.5, 0.5}));
 }
 
+/// \p Count equal records with the scales \p X, 0.01, 0.01 and the rotation
+/// 255, 0, 0, 0.
+std::string unrotated(float X, std::size_t Count) {
+  std::string Record;
+  for (const float V : {1.0F, 2.0F, 3.0F, X, 0.01F, 0.01F})
+    Record.append(reinterpret_cast<const char *>(&V), sizeof(V));
+  Record += std::string("\x80\x80\x80\xff\xff\0\0\0", 8);
+  std::string Content;
+  for (std::size_t I = 0; I < Count; ++I)
+    Content += Record;
+  return Content;
+}
+
+TEST(Splat, RotationsOfSpheresNeedNoLength) {
+  EXPECT_EQ(parsed(unrotated(0.01F, 3)).size(), 3);
+  const std::string Longer = unrotated(0.02F, 3);
+  EXPECT_FALSE(parseScene("a.splat", std::as_bytes(std::span(Longer))));
+}
+
 TEST(Splat, AnotherLengthIsToldWithWhatIsLeftOver) {
   const std::string Content(100, '\0');
   const auto Read = parseScene("a.splat", std::as_bytes(std::span(Content)));
