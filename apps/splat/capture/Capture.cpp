@@ -325,7 +325,7 @@ std::vector<std::string> captureFiles(const std::string &Path) {
 
 Expected<Capture> readCapture(const std::string &Path,
                               const CaptureOptions &Options) {
-  const auto F = findCapture(Path);
+  const auto F = findCapture(Path, Options.Images.empty());
   if (!F)
     return noCapture(Path);
   Capture C;

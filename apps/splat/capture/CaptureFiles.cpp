@@ -107,9 +107,40 @@ std::optional<Location> modelAt(const fs::path &Folder, const fs::path &Root) {
   return Model ? Model : modelIn(Folder, Root);
 }
 
+/// Whether a place of pictures exists for the model at \p F, or the capture's
+/// folder has some beside its other files.
+bool hasPictures(const Location &F) {
+  std::error_code Ignored;
+  for (const fs::path &Folder : pictureFolders(F, {}))
+    if (Folder.filename() != "." && fileExists(Folder))
+      return true;
+  return std::ranges::any_of(
+      fs::directory_iterator(F.Root, Ignored),
+      [](const fs::directory_entry &Entry) { return isPictureName(Entry); });
+}
+
+/// The largest model that has pictures, as COLMAP's undistorter writes them
+/// beside a model; empty if there is none.
+std::optional<Location> modelWithPictures(const fs::path &Root) {
+  std::vector<fs::path> Folders = foldersIn(Root, 3);
+  std::erase_if(Folders, [&](const fs::path &Folder) {
+    const auto Model = modelIn(Folder, Root);
+    return !Model || !hasPictures(*Model);
+  });
+  return largestOf(Folders, Root);
+}
+
+/// \p Found, with a note that names the model.
+Location named(Location Found) {
+  if (Found.Note.empty())
+    Found.Note = fmt::format(
+        "the model {}", Found.Model.lexically_relative(Found.Root).string());
+  return Found;
+}
+
 } // namespace
 
-std::optional<Location> findCapture(const fs::path &Path) {
+std::optional<Location> findCapture(const fs::path &Path, bool NeedsPictures) {
   if (Path.extension() == ".json" && fileExists(Path))
     return Location{CaptureFormat::Transforms, Path, Path.parent_path(), {}};
   auto Found = modelAt(Path / "sparse", Path);
@@ -120,6 +151,9 @@ std::optional<Location> findCapture(const fs::path &Path) {
         std::pair("transforms.json", CaptureFormat::Transforms)})
     if (!Found && fileExists(Path / Name))
       return Location{Format, Path / Name, Path, {}};
+  if (Found && NeedsPictures && !hasPictures(*Found))
+    if (auto Other = modelWithPictures(Path))
+      return named(std::move(*Other));
   if (Found)
     return Found;
   // nerfstudio's layout, and that of INRIA before it undistorts pictures.
@@ -128,10 +162,7 @@ std::optional<Location> findCapture(const fs::path &Path) {
       Found = modelAt(Path / Sub, Path);
   if (!Found)
     Found = largestOf(foldersIn(Path, 3), Path);
-  if (Found && Found->Note.empty())
-    Found->Note = fmt::format("the model {}",
-                              Found->Model.lexically_relative(Path).string());
-  return Found;
+  return Found ? std::optional(named(std::move(*Found))) : std::nullopt;
 }
 
 std::vector<fs::path> pictureFolders(const Location &F,
@@ -164,7 +195,8 @@ PicturePlaces findPictures(const std::vector<fs::path> &Folders,
     if (M.Found == 0)
       continue;
     if (&Folder != &Folders.front())
-      Notes.push_back("pictures in " + escaped(Folder.string()));
+      Notes.push_back("pictures in " +
+                      escaped(Folder.lexically_normal().string()));
     Notes.insert(Notes.end(), M.Notes.begin(), M.Notes.end());
     return {Folder, std::move(M.Files)};
   }

@@ -30,8 +30,11 @@ struct Location {
 };
 
 /// The capture at \p Path, a folder or transforms.json; empty if there is none.
-/// Of several models of COLMAP in one place, it is that of the most images.
-std::optional<Location> findCapture(const std::filesystem::path &Path);
+/// Of several models of COLMAP in one place, it is that of the most images. If
+/// it has no pictures in their places, and \p NeedsPictures, a model that has
+/// some precedes it.
+std::optional<Location> findCapture(const std::filesystem::path &Path,
+                                    bool NeedsPictures = true);
 
 /// The same, but \p Path may also be one of COLMAP's files.
 std::optional<Location> findCameras(const std::filesystem::path &Path);

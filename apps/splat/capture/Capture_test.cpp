@@ -172,6 +172,15 @@ TEST(Capture, MasksAreFoundByNameOrByPath) {
     EXPECT_EQ(C->Views[2].Mask, F.path("masks/a2.png"));
     EXPECT_EQ(readCapture(F.path())->masked(), 0U);
   }
+  // The model's name of a picture may be another than its file's.
+  Colmap["images/a1.jpg"] = std::move(Colmap["images/a1.png"]);
+  Colmap.erase("images/a1.png");
+  {
+    const CaptureFolder F(Colmap);
+    const auto C = readCapture(F.path(), Files);
+    ASSERT_TRUE(C) << C.error().What;
+    EXPECT_EQ(C->Views[1].Mask, F.path("masks/a1.png.png"));
+  }
   Folder Transforms = transformsOf(sampleCapture());
   Transforms["masks/a1.png"] = Png;
   Transforms["other/m.png"] = Png;

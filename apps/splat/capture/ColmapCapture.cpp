@@ -27,10 +27,12 @@ std::vector<std::string> namesOf(const std::vector<CaptureView> &Views) {
   return Names;
 }
 
-/// The mask of \p Picture, which is in \p Pictures.
-std::string maskBeside(const fs::path &Pictures, const fs::path &Picture) {
-  return maskOf(Pictures.parent_path() / "masks",
-                Picture.lexically_relative(Pictures));
+/// The mask of \p Picture, which is in \p Pictures and the model's \p Name.
+std::string maskBeside(const fs::path &Pictures, const fs::path &Picture,
+                       const std::string &Name) {
+  const fs::path Masks = Pictures.parent_path() / "masks";
+  const std::string Mask = maskOf(Masks, Picture.lexically_relative(Pictures));
+  return Mask.empty() ? maskOf(Masks, Name) : Mask;
 }
 
 Expected<ReadModel> readModel(const Location &F, bool PosesOnly) {
@@ -96,7 +98,7 @@ Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
   for (std::size_t I = 0; I < C.Views.size(); ++I) {
     C.Views[I].Picture = Files[I].string();
     if (Options.Masks == MaskSource::Files)
-      C.Views[I].Mask = maskBeside(Folder, Files[I]);
+      C.Views[I].Mask = maskBeside(Folder, Files[I], C.Views[I].Pose.Name);
   }
   return leaveOutSome(C.Views, C);
 }
@@ -122,11 +124,12 @@ void addColmapFiles(const Location &F, std::vector<fs::path> &To) {
     return;
   To.push_back(F.Model / PlyName);
   std::vector<std::string> Notes;
+  const std::vector<std::string> Names = namesOf(Read->Model.Views);
   const auto [Folder, Files] =
-      findPictures(pictureFolders(F, {}), namesOf(Read->Model.Views), Notes);
-  for (const fs::path &Picture : Files) {
-    To.push_back(Picture);
-    To.emplace_back(maskBeside(Folder, Picture));
+      findPictures(pictureFolders(F, {}), Names, Notes);
+  for (std::size_t I = 0; I < Files.size(); ++I) {
+    To.push_back(Files[I]);
+    To.emplace_back(maskBeside(Folder, Files[I], Names[I]));
   }
 }
 
