@@ -2,6 +2,7 @@
 
 #include "Descriptor.h"
 #include "vorion/support/Hash.h"
+#include "vorion/support/HostMemory.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -18,11 +19,6 @@ namespace {
 Error cannot(const std::string &Path, const char *Do, int Cause) {
   return {Path, fmt::format("cannot {}: {}, expected a readable file", Do,
                             std::strerror(Cause))};
-}
-
-uint64_t memoryOfMachine() {
-  return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 /// Reads up to \p Size bytes; the number of them, or nothing with errno set.
@@ -87,7 +83,7 @@ Expected<Success> readChunks(const std::string &Path,
   // Files of /proc call themselves regular and empty.
   const bool SaysSize = S_ISREG(Info.st_mode) && Info.st_size > 0;
   if (SaysSize) {
-    Most = std::min(Most, memoryOfMachine());
+    Most = std::min(Most, hostMemory());
     if (static_cast<uint64_t>(Info.st_size) > Most)
       return Error{Path, fmt::format("a file of {} bytes, expected at most {}",
                                      Info.st_size, Most)};

@@ -1,8 +1,8 @@
 /// Automatic view of a scene without cameras.
 #pragma once
 
-#include "cameras/Vector.h"
 #include "io/Cameras.h"
+#include "io/Vector.h"
 #include "scene/SceneFile.h"
 
 #include <optional>

@@ -1,8 +1,8 @@
 /// Cameras derived from others: orbits, paths, other picture sizes.
 #pragma once
 
-#include "cameras/Vector.h"
 #include "io/Cameras.h"
+#include "io/Vector.h"
 
 #include <optional>
 #include <vector>

@@ -4,6 +4,7 @@
 #include "io/CameraShutter.h"
 #include "io/PlyFile.h"
 #include "io/Unsupported.h"
+#include "scene/Scene.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -268,7 +269,6 @@ static Expected<std::vector<uint8_t>> coloursOf(const std::string &Where,
                                                 const PlyFile &File,
                                                 const PlyElement &Vertex) {
   constexpr uint8_t Grey = 128;
-  constexpr double ShOfDegree0 = 0.28209479177387814; // Y_00
   const std::vector<std::string> Known[] = {
       {"red", "green", "blue"},
       {"diffuse_red", "diffuse_green", "diffuse_blue"},
@@ -300,7 +300,7 @@ static Expected<std::vector<uint8_t>> coloursOf(const std::string &Where,
     return At.error();
   if (Names->front() == "f_dc_0")
     return Fill([&](Bytes Row, std::size_t C) {
-      return colourByte(0.5 + ShOfDegree0 * loadReal(Row, (*At)[C]));
+      return colourByte(0.5 + ShC0 * loadReal(Row, (*At)[C]));
     });
   double Most = 0;
   Fill([&](Bytes Row, std::size_t C) {

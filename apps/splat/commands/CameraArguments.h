@@ -1,8 +1,8 @@
 /// Camera options of the subcommands that render.
 #pragma once
 
-#include "cameras/Vector.h"
 #include "io/Cameras.h"
+#include "io/Vector.h"
 #include "picture/Options.h"
 #include "scene/SceneFile.h"
 

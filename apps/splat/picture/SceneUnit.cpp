@@ -38,11 +38,26 @@ std::optional<float> nearOfSmallScene(Rules R,
                   std::numeric_limits<float>::min());
 }
 
+static void followUnit(const Scene &S, const std::vector<Camera> &Cameras,
+                       Rules R, std::optional<float> &Near) {
+  if (!Near)
+    Near = nearOfSmallScene(R, Cameras, sampleOf(S));
+}
+
 void prepareToDraw(Scene &S, const std::vector<Camera> &Cameras, Rules R,
                    std::optional<float> &Near) {
   recentre(S, Cameras);
-  if (!Near)
-    Near = nearOfSmallScene(R, Cameras, sampleOf(S));
+  followUnit(S, Cameras, R, Near);
+}
+
+const Scene &preparedToDraw(const Scene &S, const std::vector<Camera> &Cameras,
+                            Rules R, std::optional<float> &Near,
+                            std::optional<Scene> &Copy) {
+  followUnit(S, Cameras, R, Near);
+  if (S.MeanRests.empty())
+    return S;
+  recentre(Copy.emplace(S), Cameras);
+  return *Copy;
 }
 
 } // namespace vorion::splat

@@ -35,4 +35,10 @@ std::optional<float> nearOfSmallScene(Rules R,
 void prepareToDraw(Scene &S, const std::vector<Camera> &Cameras, Rules R,
                    std::optional<float> &Near);
 
+/// The same for a scene that stays as it is: the result is \p Copy if it is
+/// measured from another origin, otherwise \p S.
+const Scene &preparedToDraw(const Scene &S, const std::vector<Camera> &Cameras,
+                            Rules R, std::optional<float> &Near,
+                            std::optional<Scene> &Copy);
+
 } // namespace vorion::splat

@@ -5,6 +5,7 @@
 #include "study/PointStore.h"
 #include "study/Process.h"
 #include "vorion/support/File.h"
+#include "vorion/support/HostMemory.h"
 #include "vorion/support/HostProcessors.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Letters.h"
@@ -249,9 +250,9 @@ Words Work::processorArguments(const char *Command, const char *Old,
 /// So many that their pictures fit into memory.
 unsigned featureThreads() {
   constexpr double Each = 1.5e9; // bytes for a picture of 3200 pixels
-  const double Memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                        static_cast<double>(sysconf(_SC_PAGESIZE));
-  return std::clamp(static_cast<unsigned>(Memory / Each), 1U, hostProcessors());
+  return std::clamp(
+      static_cast<unsigned>(static_cast<double>(hostMemory()) / Each), 1U,
+      hostProcessors());
 }
 
 /// Runs \p S unless it is done.

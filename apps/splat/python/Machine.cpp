@@ -190,20 +190,6 @@ void addLayers(CLI::App &App, Layers &L) {
   App.add_option("--contributors", L.Top)->check(isBetween(0U, MaxTop));
 }
 
-/// \p S as a picture of \p C needs it, whose near plane \p O gets
-/// (SceneUnit.h).
-/// \p Copy holds it if it is in another frame.
-const Scene *preparedFor(const Scene &S, const Camera &C, RenderOptions &O,
-                         std::optional<Scene> &Copy) {
-  if (!O.Near)
-    O.Near = nearOfSmallScene(O.Convention, {C}, sampleOf(S));
-  if (S.MeanRests.empty())
-    return &S;
-  Copy = S;
-  recentre(*Copy, {C});
-  return &*Copy;
-}
-
 /// Adds \p Triangles, null for none, to \p O for a scene in the frame of
 /// \p Drawn.
 void placeMesh(std::shared_ptr<Mesh> Triangles, const Scene &Drawn,
@@ -258,7 +244,8 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C,
   valueOf(checkBlends(M.device(), A.Options.Blending));
   drawAs(A.Options, S.DrawnAs);
   std::optional<Scene> Copy;
-  const Scene &Drawn = *preparedFor(S.Gaussians, C, A.Options, Copy);
+  const Scene &Drawn = preparedToDraw(S.Gaussians, {C}, A.Options.Convention,
+                                      A.Options.Near, Copy);
   if (Triangles && (Normals || Beside.needLists()))
     throw Failed(layersBesideMesh());
   placeMesh(std::move(Triangles), Drawn, A.Options);
@@ -304,7 +291,8 @@ py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
   B.Parameters = Stored ? GradientsOf::Stored : GradientsOf::Activated;
   drawAs(O, S.DrawnAs);
   std::optional<Scene> Copy;
-  const Scene &Drawn = *preparedFor(S.Gaussians, C, O, Copy);
+  const Scene &Drawn =
+      preparedToDraw(S.Gaussians, {C}, O.Convention, O.Near, Copy);
   placeMesh(std::move(Triangles), Drawn, O);
   valueOf(checkOpaque(O));
   const Shape Sizes = sizesOf(C);

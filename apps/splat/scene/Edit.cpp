@@ -1,5 +1,6 @@
 #include "scene/Edit.h"
 
+#include "io/Vector.h"
 #include "scene/Axes.h"
 #include "scene/Quaternion.h"
 
@@ -12,12 +13,11 @@
 namespace vorion::splat {
 namespace {
 
-using Vec3 = std::array<double, 3>;
-using Mat3 = std::array<Vec3, 3>;
+using Mat3 = std::array<Vector, 3>;
 
 /// The real spherical harmonics of bands 1 to 3, in INRIA's order and signs,
 /// for the unit vector \p D.
-std::array<double, 15> basis(const Vec3 &D) {
+std::array<double, 15> basis(const Vector &D) {
   const auto [X, Y, Z] = D;
   const double XX = X * X, YY = Y * Y, ZZ = Z * Z;
   const double C1 = std::sqrt(3 / (4 * std::numbers::pi));
@@ -60,8 +60,8 @@ Turn turnOf(const Mat3 &R) {
     const double Weight = Weights[Ring / 2] * 2 * std::numbers::pi / 8;
     for (int I = 0; I < 8; ++I) {
       const double Angle = 2 * std::numbers::pi * I / 8;
-      const Vec3 D = {Around * std::cos(Angle), Around * std::sin(Angle), Z};
-      Vec3 Back{}; // by the rotation's transpose
+      const Vector D = {Around * std::cos(Angle), Around * std::sin(Angle), Z};
+      Vector Back{}; // by the rotation's transpose
       for (std::size_t A = 0; A < 3; ++A)
         for (std::size_t B = 0; B < 3; ++B)
           Back[A] += R[B][A] * D[B];
@@ -74,18 +74,14 @@ Turn turnOf(const Mat3 &R) {
   return T;
 }
 
-double dot(const Vec3 &A, const Vec3 &B) {
-  return A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
-}
-
 /// Turns \p Columns among themselves (Jacobi, from one side) until each is at
 /// right angles to the others, and the columns of \p Along in the same way;
 /// gives the lengths of the former. The ellipsoid whose half axes they are
 /// stays the same. A right-handed three stays one.
-Vec3 makeOrthogonal(Mat3 &Columns, Mat3 *Along = nullptr) {
+Vector makeOrthogonal(Mat3 &Columns, Mat3 *Along = nullptr) {
   for (int Round = 0; Round < 12; ++Round)
     for (const auto &[P, Q] : {std::pair(0U, 1U), {0U, 2U}, {1U, 2U}}) {
-      const Vec3 A = Columns[P], B = Columns[Q];
+      const Vector A = Columns[P], B = Columns[Q];
       const double Off = dot(A, B);
       if (Off == 0 || !std::isfinite(Off))
         continue;
@@ -101,49 +97,33 @@ Vec3 makeOrthogonal(Mat3 &Columns, Mat3 *Along = nullptr) {
           Second = S * Old + C * Second;
         }
     }
-  Vec3 Lengths{};
+  Vector Lengths{};
   for (std::size_t C = 0; C < 3; ++C)
-    Lengths[C] = std::sqrt(dot(Columns[C], Columns[C]));
+    Lengths[C] = length(Columns[C]);
   return Lengths;
-}
-
-Vec3 cross(const Vec3 &A, const Vec3 &B) {
-  return {A[1] * B[2] - A[2] * B[1], A[2] * B[0] - A[0] * B[2],
-          A[0] * B[1] - A[1] * B[0]};
-}
-
-Vec3 scaled(const Vec3 &V, double By) {
-  return {V[0] * By, V[1] * By, V[2] * By};
 }
 
 /// The directions of \p Columns, which makeOrthogonal() left with \p Lengths,
 /// as a right-handed three. The shortest column, and columns that vanish beside
 /// the longest, may have any direction: theirs follow from the others.
-Mat3 directionsOf(const Mat3 &Columns, const Vec3 &Lengths) {
+Mat3 directionsOf(const Mat3 &Columns, const Vector &Lengths) {
   const auto Longest = static_cast<std::size_t>(
       std::ranges::max_element(Lengths) - Lengths.begin());
   std::size_t Next = (Longest + 1) % 3, Last = (Longest + 2) % 3;
   if (!(Lengths[Longest] > 0))
     return Similarity().Rotation;
   Mat3 D{};
-  D[Longest] = scaled(Columns[Longest], 1 / Lengths[Longest]);
+  D[Longest] = (1 / Lengths[Longest]) * Columns[Longest];
   const bool Swapped = Lengths[Last] > Lengths[Next];
   if (Swapped)
     std::swap(Next, Last);
   constexpr double Vanishing = 1e-14;
   if (Lengths[Next] > Vanishing * Lengths[Longest]) {
-    D[Next] = scaled(Columns[Next], 1 / Lengths[Next]);
+    D[Next] = (1 / Lengths[Next]) * Columns[Next];
   } else {
-    // At right angles to the axis that is farthest from the longest one.
-    const Vec3 &L = D[Longest];
-    Vec3 Axis{};
-    Axis[static_cast<std::size_t>(
-        std::ranges::min_element(L, {}, [](double V) { return std::abs(V); }) -
-        L.begin())] = 1;
-    const Vec3 Across = cross(L, Axis);
-    D[Next] = scaled(Across, 1 / std::sqrt(dot(Across, Across)));
+    D[Next] = acrossOf(D[Longest]);
   }
-  D[Last] = scaled(cross(D[Longest], D[Next]), Swapped ? -1 : 1);
+  D[Last] = (Swapped ? -1.0 : 1.0) * cross(D[Longest], D[Next]);
   return D;
 }
 
@@ -159,12 +139,12 @@ Polar polarOf(const Mat3 &Matrix) {
   for (std::size_t R = 0; R < 3; ++R)
     for (std::size_t C = 0; C < 3; ++C)
       Columns[C][R] = Matrix[R][C];
-  const Vec3 Lengths = makeOrthogonal(Columns, &V);
+  const Vector Lengths = makeOrthogonal(Columns, &V);
   Mat3 U = directionsOf(Columns, Lengths);
   Polar P;
   for (std::size_t C = 0; C < 3; ++C)
     if (dot(U[C], Columns[C]) < -0.5 * Lengths[C]) {
-      U[C] = scaled(U[C], -1);
+      U[C] = -1.0 * U[C];
       P.Mirrors = true;
     }
   for (std::size_t R = 0; R < 3; ++R)
@@ -174,10 +154,10 @@ Polar polarOf(const Mat3 &Matrix) {
         P.Stretch[R][C] += V[K][R] * Lengths[K] * V[K][C];
       }
   if (P.Mirrors)
-    for (Vec3 &Row : P.Rotation)
+    for (Vector &Row : P.Rotation)
       Row[0] *= -1;
   // Of decimals, the identity's should stay it.
-  for (Vec3 &Row : P.Rotation)
+  for (Vector &Row : P.Rotation)
     for (double &Value : Row)
       if (std::abs(Value - std::round(Value)) < 1e-12)
         Value = std::round(Value);
@@ -214,8 +194,8 @@ void turnHarmonics(Scene &S, const Mat3 &Rotation) {
 
 } // namespace
 
-Mat3 rotationOf(const Vec3 &Degrees) {
-  Vec3 C{}, S{};
+Mat3 rotationOf(const Vector &Degrees) {
+  Vector C{}, S{};
   for (std::size_t A = 0; A < 3; ++A) {
     // Quarter turns are exact.
     const double Quarters = Degrees[A] / 90;
@@ -242,7 +222,7 @@ void transform(Scene &S, const Similarity &By) {
     return;
   const double LogScale = std::log(By.Scale);
   for (std::size_t I = 0; I < S.size(); ++I) {
-    Vec3 Moved = By.Translation;
+    Vector Moved = By.Translation;
     for (std::size_t A = 0; A < 3; ++A)
       for (std::size_t B = 0; B < 3; ++B)
         Moved[A] += By.Scale * By.Rotation[A][B] * S.mean(3 * I + B);
@@ -281,17 +261,17 @@ static void stretch(Scene &S, const Mat3 &By) {
         {{1 - N * (Y * Y + Z * Z), N * (X * Y + W * Z), N * (X * Z - W * Y)},
          {N * (X * Y - W * Z), 1 - N * (X * X + Z * Z), N * (Y * Z + W * X)},
          {N * (X * Z + W * Y), N * (Y * Z - W * X), 1 - N * (X * X + Y * Y)}}};
-    const auto Stretched = [&By](const Vec3 &V) {
-      return Vec3{dot(By[0], V), dot(By[1], V), dot(By[2], V)};
+    const auto Stretched = [&By](const Vector &V) {
+      return Vector{dot(By[0], V), dot(By[1], V), dot(By[2], V)};
     };
     for (std::size_t C = 0; C < 3; ++C)
-      Columns[C] = scaled(Stretched(Columns[C]),
-                          std::exp(double(S.LogScales[3 * I + C])));
-    const Vec3 Mean =
+      Columns[C] =
+          std::exp(double(S.LogScales[3 * I + C])) * Stretched(Columns[C]);
+    const Vector Mean =
         Stretched({S.mean(3 * I), S.mean(3 * I + 1), S.mean(3 * I + 2)});
     for (std::size_t A = 0; A < 3; ++A)
       S.setMean(3 * I + A, Mean[A]);
-    const Vec3 Lengths = makeOrthogonal(Columns);
+    const Vector Lengths = makeOrthogonal(Columns);
     const Mat3 Directions = directionsOf(Columns, Lengths);
     Mat3 Rotation{};
     for (std::size_t C = 0; C < 3; ++C) {

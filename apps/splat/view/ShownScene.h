@@ -1,8 +1,8 @@
 /// An open scene of `splat view`.
 #pragma once
 
-#include "cameras/Vector.h"
 #include "io/Cameras.h"
+#include "io/Vector.h"
 #include "mesh/Mesh.h"
 #include "scene/SceneFile.h"
 

@@ -1,6 +1,6 @@
 #include "train/optimize/Pose.h"
 
-#include "cameras/Vector.h"
+#include "io/Vector.h"
 #include "kernels/pose.cl.h"
 #include "picture/Layout.h"
 #include "render/Pipeline.h"

@@ -1,4 +1,4 @@
-/// 3D vectors of camera poses, in double precision.
+/// 3D vectors in double precision.
 #pragma once
 
 #include <array>
