@@ -72,10 +72,13 @@ def watch(browser, process, at):
     click(browser, "pause")
     reaches(browser, held + 1)
     assert process.poll() is None
-    for width, scheme in ((400, "dark"), (1200, "light")):
+    for width, scheme in ((400, "dark"), (1200, "light"), (2000, "light")):
         browser.shape(width, 900, scheme)
         time.sleep(0.2)
         assert browser.value("document.documentElement.scrollWidth") <= width
+        # What stands beside the picture begins at its side.
+        band = browser.value("document.getElementById('panels').getBoundingClientRect().left - document.querySelector('.frame').getBoundingClientRect().right")
+        assert width != 2000 or 0 < band < 30, band
         browser.screenshot(os.path.join(FOLDER, f"train-{width}.png"))
 
 

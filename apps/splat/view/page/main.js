@@ -208,7 +208,7 @@ function show() {
 
 // Draws until what is shown is what is looked at.
 async function keepUp() {
-  if (busy) return;
+  if (busy || document.documentElement.dataset.away) return;
   busy = true;
   let drawn = -1;
   while (drawn !== version || wholeVersion !== version) {

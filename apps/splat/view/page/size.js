@@ -13,6 +13,6 @@ export function pictureSize(views, fixed, most, count) {
   // One below the other, both are seen.
   const height = Math.floor(mostHeight(views) / (columns < count ? count : 1));
   const size = fixed ?? { width: Math.max(16, Math.min(most, width)), height: Math.max(16, Math.min(most, height)) };
-  views.style.setProperty('--picture', `min(100%, ${height * size.width / size.height}px)`);
+  views.parentElement.style.setProperty('--picture', `min(100%, ${height * size.width / size.height}px)`);
   return size;
 }
