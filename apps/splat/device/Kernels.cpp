@@ -63,13 +63,19 @@ public:
 
 private:
   Expected<Success> addLines(const std::string &File, std::string_view Source) {
+    // A part that is left out takes the #line behind its files with it.
+    bool HasFilesInParts = false;
+    const auto AddNumber = [&](unsigned Number) {
+      Text += fmt::format("#line {} \"{}\"\n", Number, File);
+    };
     for (unsigned Number = 1; !Source.empty(); ++Number) {
       const std::string_view Line = Source.substr(0, Source.find('\n'));
       Source.remove_prefix(std::min(Line.size() + 1, Source.size()));
       if (const std::string_view Other = includedBy(Line); !Other.empty()) {
         if (auto Done = add(std::string(Other)); !Done)
           return Done;
-        Text += fmt::format("#line {} \"{}\"\n", Number + 1, File);
+        AddNumber(Number + 1);
+        HasFilesInParts |= Conditions != 0;
         continue;
       }
       if (Line.starts_with("#if"))
@@ -79,6 +85,9 @@ private:
       if (Line != "#pragma once")
         Text += Line;
       Text += '\n';
+      if (HasFilesInParts &&
+          (Line.starts_with("#el") || Line.starts_with("#endif")))
+        AddNumber(Number + 1);
     }
     return Success{};
   }

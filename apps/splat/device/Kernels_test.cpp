@@ -55,6 +55,16 @@ TEST_F(ProgramText, HasAFileAgainThatMayHaveBeenLeftOut) {
   EXPECT_EQ(countOf(*Text, "#ifndef INCLUDED_c_h"), 2U);
 }
 
+// What is left out may be the #line behind an #include.
+TEST_F(ProgramText, NumbersLinesBehindPartsThatMayBeLeftOut) {
+  write("a.cl", "#if X\n#include \"c.h\"\n#else\nint b;\n#endif\nint a;\n");
+  write("c.h", "#pragma once\nint c;\n");
+  const auto Text = programText("a.cl", Folder);
+  ASSERT_TRUE(Text);
+  EXPECT_EQ(countOf(*Text, "#else\n#line 4 \"a.cl\"\nint b;"), 1U);
+  EXPECT_EQ(countOf(*Text, "#endif\n#line 6 \"a.cl\"\nint a;"), 1U);
+}
+
 TEST_F(ProgramText, FilesThatIncludeEachOtherEnd) {
   write("a.cl", "#include \"b.cl\"\nint a;\n");
   write("b.cl", "#include \"a.cl\"\nint b;\n");
