@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The pictures of docs/views-of-time.md, of a frame of the demo scene, into docs/images/time-*.
+# The pictures of docs/views-of-time.md and docs/viewer.md, of a frame of the demo scene, into docs/images/.
 # usage: bench/pictures/draw.sh   (needs splat on the path, and chromium)
 set -euo pipefail
 Here=$(cd "$(dirname "$0")" && pwd)
@@ -29,3 +29,4 @@ for Map in list blends cycles saturation; do
 done
 "$Here/page.py" a.html "$Images/time-page.png" --size 760x910
 "$Here/page.py" ab.html "$Images/time-compared.png" --size 900x1175
+"$Here/viewer.py" scene.ply cameras.json "$Images/viewer.png"

@@ -26,9 +26,12 @@ function sizeBox(id, rows) {
 
 const millisecondsOf = (report, name) => { const s = stageOf({ report }, name); return s ? milliseconds(s.time) : undefined; };
 
+// A setting, which may go on in the next line behind a comma.
+const breakable = set => set.split(/(?<=,)/).flatMap((part, n) => (n ? [element('wbr'), part] : [part]));
+
 // What helps a stage: what was measured, and what was not.
 function helpOf({ report }, { ms: before, helps }) {
-  const parts = helps.map(({ set, ms }) => (ms === null ? [`${set}: not measured`] : [`${set}: ${number(before, 3)} to ${number(ms, 3)} ms, `, change(before, ms), ', measured']));
+  const parts = helps.map(({ set, ms }) => (ms === null ? [...breakable(set), ': not measured'] : [...breakable(set), `: ${number(before, 3)} to ${number(ms, 3)} ms, `, change(before, ms), ', measured']));
   return element('span', {}, ...(parts.length ? parts.flatMap((part, n) => (n ? ['; ', ...part] : part)) : [report.what_if ? 'no setting that was measured' : 'nothing known']));
 }
 

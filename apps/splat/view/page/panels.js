@@ -5,11 +5,12 @@ const whole = n => Math.round(n).toLocaleString('en');
 const milli = seconds => `${(1000 * seconds).toFixed(1)} ms`;
 const short = n => n === 0 ? '0' : Math.abs(n) >= 0.001 && Math.abs(n) < 1e5 ? String(+n.toPrecision(4)) : n.toExponential(2);
 
+// Name, text, and whether a text that two pictures share stands there once.
 const FACTS = [
-  ['measured for', f => f.from ?? ''],
+  ['measured for', f => f.from ?? '', true],
   ['cycles of the machine', f => f.cycles === undefined ? '' : whole(f.cycles)],
   ['time on the machine', f => f.machine_ms === undefined ? '' : `${f.machine_ms.toFixed(2)} ms`],
-  ['machine', f => f.clocked_machine ?? ''],
+  ['machine', f => f.clocked_machine ?? '', true],
   ['PSNR against fp64', f => !f.error ? '' : f.error.psnr_db === null ? 'equal' : `${f.error.psnr_db.toFixed(1)} dB`],
   ['largest error', f => !f.error ? '' : short(f.error.max_abs)],
   ['pixels off by 1/255', f => !f.error ? '' : `${(100 * f.error.off_share).toFixed(2)} %`],
@@ -22,9 +23,10 @@ const head = () => element('tr', {}, element('th', {}, ''), element('th', { scop
 
 // `all`: the facts of one picture, or of two.
 export function showFacts(all) {
-  const rows = FACTS.map(([name, of]) => [name, all.map(f => f ? of(f) : '')]).filter(([, texts]) => texts.some(t => t));
+  const once = (texts, isShared) => (isShared && texts.every(t => t === texts[0]) ? texts.slice(0, 1) : texts);
+  const rows = FACTS.map(([name, of, isShared]) => [name, once(all.map(f => f ? of(f) : ''), isShared)]).filter(([, texts]) => texts.some(t => t));
   byId('facts').tBodies[0].replaceChildren(...(all.length > 1 ? [head()] : []),
-    ...rows.map(([name, texts]) => element('tr', {}, element('th', { scope: 'row' }, name), ...texts.map(t => element('td', {}, t)))));
+    ...rows.map(([name, texts]) => element('tr', {}, element('th', { scope: 'row' }, name), ...texts.map(t => element('td', { colspan: 1 + all.length - texts.length }, t)))));
   const first = all.find(f => f);
   if (!first) return;
   byId('stages').tBodies[0].replaceChildren(...first.stages.map(s => element('tr', {}, element('th', { scope: 'row' }, s.name),
