@@ -39,6 +39,14 @@ Expected<std::vector<uint8_t>> countsOf(const CaptureView &V, const Plane &P,
   return Counts;
 }
 
+/// Masked pixels are 0.
+void clearMasked(TrainView &V) {
+  for (std::size_t I = 0; I < V.Counts.size(); ++I)
+    if (V.Counts[I] == 0)
+      std::fill_n(V.Picture.Rgb.begin() + static_cast<std::ptrdiff_t>(3 * I), 3,
+                  0);
+}
+
 /// \p Points: of the capture, from \p Origin.
 Expected<TrainView> load(const CaptureView &V, const std::vector<float> &Points,
                          const WorldPoint &Origin, const LoadOptions &O) {
@@ -68,10 +76,7 @@ Expected<TrainView> load(const CaptureView &V, const std::vector<float> &Points,
     return Error{
         V.Mask.empty() ? V.Picture : V.Mask,
         "all pixels are masked out, expected at least one unmasked pixel"};
-  for (std::size_t I = 0; I < T.Counts.size(); ++I)
-    if (T.Counts[I] == 0)
-      std::fill_n(T.Picture.Rgb.begin() + static_cast<std::ptrdiff_t>(3 * I), 3,
-                  0);
+  clearMasked(T);
   if (O.KeepAlpha) {
     T.Alpha = shrinkAlpha(P, Width, Height);
     if (std::ranges::all_of(T.Alpha, [](uint8_t A) { return A == 255; }))
@@ -98,6 +103,41 @@ Photo over(const TrainView &V, const std::array<float, 3> &Was,
             static_cast<uint8_t>(std::clamp(std::lround(Level), 0L, 255L));
       }
   return P;
+}
+
+TrainView shrunk(const TrainView &V, int Factor) {
+  const Photo &From = V.Picture;
+  const int Width = shrunkSide(From.Width, Factor),
+            Height = shrunkSide(From.Height, Factor);
+  TrainView To{stretched(V.Pose, Width, Height),
+               shrink(From, Width, Height),
+               shrinkCounts(V.Counts, static_cast<std::size_t>(From.Width),
+                            static_cast<std::size_t>(From.Height), Width,
+                            Height),
+               {}};
+  clearMasked(To);
+  if (!V.Alpha.empty()) {
+    Photo Grey{From.Width, From.Height, {}};
+    Grey.Rgb.reserve(3 * V.Alpha.size());
+    for (const uint8_t A : V.Alpha)
+      Grey.Rgb.insert(Grey.Rgb.end(), 3, A);
+    Grey = shrink(Grey, Width, Height);
+    for (std::size_t I = 0; I < Grey.pixels(); ++I)
+      To.Alpha.push_back(Grey.Rgb[3 * I]);
+  }
+  for (DepthPoint D : V.Depths) {
+    const auto Across = static_cast<uint32_t>(From.Width),
+               Down = static_cast<uint32_t>(From.Height);
+    const uint32_t X = D.Pixel % Across * static_cast<uint32_t>(Width) / Across,
+                   Y = D.Pixel / Across * static_cast<uint32_t>(Height) / Down;
+    D.Pixel = Y * static_cast<uint32_t>(Width) + X;
+    if (To.Counts.empty() || To.Counts[D.Pixel] != 0)
+      To.Depths.push_back(D);
+  }
+  std::ranges::sort(To.Depths, {}, [](const DepthPoint &D) {
+    return std::pair(D.Pixel, D.Disparity);
+  });
+  return To;
 }
 
 std::vector<Camera> TrainingSet::cameras() const {

@@ -29,6 +29,10 @@ struct TrainView {
 Photo over(const TrainView &V, const std::array<float, 3> &Was,
            const std::array<float, 3> &Is);
 
+/// \p V with its sides divided by \p Factor. Depths fall into the smaller
+/// picture's pixels.
+TrainView shrunk(const TrainView &V, int Factor);
+
 /// Options for loading pictures.
 struct LoadOptions {
   int Downscale = 1; ///< downsampling factor (capture/Photo.h)

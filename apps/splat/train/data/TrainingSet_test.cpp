@@ -35,6 +35,28 @@ TEST(TrainingSet, PicturesAndCamerasAreMadeSmallerTogether) {
   EXPECT_EQ(Set->largest(), std::pair(4, 3));
 }
 
+TEST(TrainingSet, AViewShrinksWithAllThatItHas) {
+  TrainView V{{}, {4, 2, {}}, {1, 1, 1, 1, 1, 1, 0, 1}, {}};
+  V.Pose.Width = 4;
+  V.Pose.Height = 2;
+  V.Pose.Fx = V.Pose.Fy = 8;
+  for (uint8_t I = 0; I < 8; ++I) {
+    V.Picture.Rgb.insert(V.Picture.Rgb.end(), {I, 10, 20});
+    V.Alpha.push_back(static_cast<uint8_t>(10 * I));
+  }
+  V.Depths = {{1, 0.5F}, {2, 0.25F}, {4, 2.0F}};
+  const TrainView Half = shrunk(V, 2);
+  EXPECT_EQ(Half.Pose.Width, 2);
+  EXPECT_EQ(Half.Pose.Height, 1);
+  EXPECT_EQ(Half.Pose.Fx, 4);
+  // Pixels 0, 1, 4, 5 are the left one; the right one is masked.
+  EXPECT_EQ(Half.Picture.Rgb, (std::vector<uint8_t>{3, 10, 20, 0, 0, 0}));
+  EXPECT_EQ(Half.Counts, (std::vector<uint8_t>{1, 0}));
+  EXPECT_EQ(Half.Alpha, (std::vector<uint8_t>{25, 45}));
+  const std::vector<DepthPoint> Depths = {{0, 0.5F}, {0, 2.0F}};
+  EXPECT_EQ(Half.Depths, Depths);
+}
+
 TEST(TrainingSet, MasksAndAlphaSayWhichPixelsCount) {
   Folder Files = colmapBinaryOf(sampleCapture());
   std::string Mask(192, '\xff'), Transparent;

@@ -113,13 +113,39 @@ Checkpoint Trainer::save() {
   return C;
 }
 
+const TrainView &Trainer::sized(std::size_t View) {
+  const int Factor = shrinkAt(Run.Settings, Done + 1);
+  if (Factor == 1)
+    return Pictures.Training[View];
+  if (Factor != Shrink) {
+    Smaller.assign(Pictures.Training.size(), std::nullopt);
+    Shrink = Factor;
+  }
+  std::optional<TrainView> &V = Smaller[View];
+  if (!V) {
+    V = shrunk(Pictures.Training[View], Factor);
+    // A mask may leave no pixel of it.
+    if (!V->Counts.empty() &&
+        std::ranges::find(V->Counts, 1) == V->Counts.end())
+      V = Pictures.Training[View];
+  }
+  return *V;
+}
+
+cl::Buffer Trainer::forward(std::size_t View, const TrainView &Sized,
+                            int ShDegree) {
+  Camera C = Posed.at(View);
+  if (C.Width != Sized.Pose.Width || C.Height != Sized.Pose.Height)
+    C = stretched(C, Sized.Pose.Width, Sized.Pose.Height);
+  return Renderer.forward(State, C, ShDegree);
+}
+
 /// \p Place: of the view in the whole run, from 1.
 ViewBatch::ViewResult Trainer::take(uint64_t Place, int ShDegree) {
   const std::size_t View = Order.at(Place);
-  const TrainView &V = Pictures.Training[View];
+  const TrainView &V = sized(View);
   if (!Run.RandomBackground)
-    return lossOf(Renderer.forward(State, Posed.at(View), ShDegree), View,
-                  V.Picture);
+    return lossOf(forward(View, V, ShDegree), View, V, V.Picture);
   const philox_words W =
       philox(static_cast<uint>(Run.Seed), static_cast<uint>(Run.Seed >> 32),
              static_cast<uint>(Place), static_cast<uint>(Place >> 32), 0,
@@ -127,33 +153,33 @@ ViewBatch::ViewResult Trainer::take(uint64_t Place, int ShDegree) {
   const std::array<float, 3> Colour{
       philox_unit(W.word[0]), philox_unit(W.word[1]), philox_unit(W.word[2])};
   Renderer.setBackground(Colour);
-  const cl::Buffer Drawn = Renderer.forward(State, Posed.at(View), ShDegree);
-  return lossOf(Drawn, View, over(V, Run.Background, Colour));
+  const cl::Buffer Drawn = forward(View, V, ShDegree);
+  return lossOf(Drawn, View, V, over(V, Run.Background, Colour));
 }
 
 ViewBatch::ViewResult Trainer::lossOf(const cl::Buffer &Picture,
-                                      std::size_t View, const Photo &Target) {
+                                      std::size_t View, const TrainView &Sized,
+                                      const Photo &Target) {
   Launch.beginStage(Stage::Loss);
-  const std::vector<uint8_t> &Counts = Pictures.Training[View].Counts;
   const auto Pixels = static_cast<uint32_t>(Target.pixels());
   ViewBatch::ViewResult R;
   if (Exposed.areOn()) {
-    R.Loss =
-        Loss.evaluate(Exposed.apply(Picture, Pixels, View), Target, Counts);
+    R.Loss = Loss.evaluate(Exposed.apply(Picture, Pixels, View), Target,
+                           Sized.Counts);
     R.ByExposure = Exposed.back(Picture, Loss.gradient(), Pixels, View);
   } else {
-    R.Loss = Loss.evaluate(Picture, Target, Counts);
+    R.Loss = Loss.evaluate(Picture, Target, Sized.Counts);
   }
   R.Back =
-      Renderer.backward(Loss.gradient(), Loss.alphaGradient(), depthsOf(View));
+      Renderer.backward(Loss.gradient(), Loss.alphaGradient(), depthsOf(Sized));
   if (Posed.areOn())
     R.ByPose = Posed.slope(View, State.Parameters, R.Back, State.Count);
   return R;
 }
 
 /// The weight is that of the mean over the picture's points.
-DepthTargets Trainer::depthsOf(std::size_t View) const {
-  const std::vector<DepthPoint> &Points = Pictures.Training[View].Depths;
+DepthTargets Trainer::depthsOf(const TrainView &V) const {
+  const std::vector<DepthPoint> &Points = V.Depths;
   return {&Points, static_cast<float>(Run.Settings.DepthWeight * Run.Extent /
                                       static_cast<double>(Points.size()))};
 }

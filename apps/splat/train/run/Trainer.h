@@ -99,9 +99,12 @@ private:
   std::optional<DensityChange> changeDensity();
   bool allSucceeded();
   ViewBatch::ViewResult take(uint64_t Place, int ShDegree);
+  /// Training view \p View at the size of the next iteration.
+  const TrainView &sized(std::size_t View);
+  cl::Buffer forward(std::size_t View, const TrainView &Sized, int ShDegree);
   ViewBatch::ViewResult lossOf(const cl::Buffer &Picture, std::size_t View,
-                               const Photo &Target);
-  DepthTargets depthsOf(std::size_t View) const;
+                               const TrainView &Sized, const Photo &Target);
+  DepthTargets depthsOf(const TrainView &V) const;
   void stepExposures();
   void stepPoses();
 
@@ -119,6 +122,9 @@ private:
   ViewBatch Batch;
   const MomentsOn Where;
   DeviceScene State;
+  /// Views that are divided by Shrink, as far as they have been needed.
+  std::vector<std::optional<TrainView>> Smaller;
+  int Shrink = 1;
   unsigned Done = 0;
   std::vector<float> Losses;
 };

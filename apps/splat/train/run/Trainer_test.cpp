@@ -271,6 +271,7 @@ TEST_F(TrainerOnDevice, AnyNumberOfProcessesHasTheSameBits) {
   Run.Settings.DensifyInterval = 3;
   Run.Settings.DensifyGradient = 5e-3;
   Run.Settings.ShInterval = 2;
+  Run.Settings.SizeInterval = 2;
   Run.Settings.PositionRate = 1e-3;
   Run.Extent = 3;
   Run.Batch = 3;

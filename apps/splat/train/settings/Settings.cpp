@@ -29,6 +29,13 @@ double poseRate(const TrainSettings &S, unsigned Iteration) {
   return falling(S.PoseRate, S.LastPoseRate, partOf(S, Iteration));
 }
 
+int shrinkAt(const TrainSettings &S, unsigned Iteration) {
+  if (S.SizeInterval == 0)
+    return 1;
+  const unsigned Step = (Iteration - 1) / S.SizeInterval;
+  return Step == 0 ? 4 : Step == 1 ? 2 : 1;
+}
+
 int shDegreeAt(const TrainSettings &S, unsigned Iteration, int Most) {
   return static_cast<int>(
       std::min(static_cast<unsigned>(Most), Iteration / S.ShInterval));

@@ -49,6 +49,9 @@ struct TrainSettings {
   double DepthWeight = 0;
   /// Iterations between increases of the SH degree.
   unsigned ShInterval = 1000;
+  /// Iterations with photographs of a quarter of their sides, and then of half;
+  /// 0: they have all of their size from the beginning.
+  unsigned SizeInterval = 0;
 
   /// \name Initial Gaussians
   /// @{
@@ -98,6 +101,9 @@ double exposureRate(const TrainSettings &S, unsigned Iteration);
 
 constexpr bool arePosesOn(const TrainSettings &S) { return S.PoseRate > 0; }
 double poseRate(const TrainSettings &S, unsigned Iteration);
+
+/// What the sides of photographs are divided by at \p Iteration (from 1).
+int shrinkAt(const TrainSettings &S, unsigned Iteration);
 
 /// The SH degree at \p Iteration, at most \p Most.
 int shDegreeAt(const TrainSettings &S, unsigned Iteration, int Most);

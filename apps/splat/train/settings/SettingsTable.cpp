@@ -72,6 +72,11 @@ constexpr SettingField Fields[] = {
      &S::DepthWeight, 0, Large},
     {"sh_interval", "iterations between increments of the SH degree",
      &S::ShInterval, 1, Many},
+    {"size_interval",
+     "iterations with photographs of a quarter of their sides, and then of "
+     "half "
+     "(0: none)",
+     &S::SizeInterval, 0, Many},
     {"start_opacity", "initial opacity of Gaussians", &S::StartOpacity, Faint,
      Opaque},
     {"start_scale",

@@ -10,6 +10,17 @@ using namespace vorion::splat;
 
 namespace {
 
+TEST(TrainSettings, PhotographsGrowTwice) {
+  TrainSettings S;
+  EXPECT_EQ(shrinkAt(S, 1), 1);
+  S.SizeInterval = 100;
+  EXPECT_EQ(shrinkAt(S, 1), 4);
+  EXPECT_EQ(shrinkAt(S, 100), 4);
+  EXPECT_EQ(shrinkAt(S, 101), 2);
+  EXPECT_EQ(shrinkAt(S, 200), 2);
+  EXPECT_EQ(shrinkAt(S, 201), 1);
+}
+
 TEST(Settings, PositionsSlowDownExponentially) {
   const TrainSettings S;
   EXPECT_NEAR(positionRate(S, 0), 1.6e-4, 1e-12);
