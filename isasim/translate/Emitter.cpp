@@ -2,7 +2,7 @@
 //
 // A region is written twice, for all lanes active and for some of them, with
 // the same guest registers in the same host registers, and once more for one
-// lane where a warp of one was found (lane/). It is entered as the
+// lane where a warp of one was found (OneLane.h). It is entered as the
 // interpreter's handlers are (core/State.h, Handler), and ends in a tail call
 // of one. What it does not do itself, or finds out of the ordinary, it leaves
 // to the interpreter's handler of that instruction before it has changed

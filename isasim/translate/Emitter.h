@@ -6,7 +6,7 @@
 #include "translate/HeldVectors.h"
 #include "translate/HostVectors.h"
 #include "translate/Region.h"
-#include "translate/lane/OneLane.h"
+#include "translate/OneLane.h"
 
 #include <deque>
 #include <functional>

@@ -1,7 +1,7 @@
 // Integer arithmetic and branches of one lane, from the interpreter's
 // definitions.
 
-#include "translate/lane/Writer.h"
+#include "translate/OneLaneWriter.h"
 
 #include <bit>
 #include <cassert>

@@ -1,8 +1,8 @@
 // Single precision of one lane on the host's unit, rounded to nearest, as
-// ../Float.cpp has it.
+// Float.cpp has it.
 
 #include "core/SoftFloat.h"
-#include "translate/lane/Writer.h"
+#include "translate/OneLaneWriter.h"
 
 namespace vorion::isasim::translate::lane {
 

@@ -2,8 +2,8 @@
 /// the ways in and out.
 #pragma once
 
+#include "translate/OneLane.h"
 #include "translate/Places.h"
-#include "translate/lane/OneLane.h"
 
 #include <deque>
 #include <functional>

@@ -6,7 +6,7 @@
 // versions (Emitter.cpp), what is rare is left to the interpreter's handler
 // before anything has changed.
 
-#include "translate/lane/Writer.h"
+#include "translate/OneLaneWriter.h"
 
 #include <algorithm>
 #include <cassert>

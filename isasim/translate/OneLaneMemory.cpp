@@ -3,7 +3,7 @@
 // that Guess.cpp says; then anywhere.
 
 #include "translate/AtomicWord.h"
-#include "translate/lane/Writer.h"
+#include "translate/OneLaneWriter.h"
 
 #include <bit>
 
