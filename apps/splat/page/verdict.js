@@ -24,7 +24,7 @@ openPage(() => {
   document.title = data.heading;
   document.querySelector('h1').textContent = data.heading;
   byId('verdict').textContent = data.verdict;
-  byId('charts').append(...data.charts.map(({ title }) => element('div', { class: 'chart', style: 'height: 24em; max-width: 60em' },
+  byId('charts').append(...data.charts.map(({ title }) => element('div', { class: 'chart', style: 'height: 24em' },
     element('canvas', { id: slug(title), role: 'img', 'aria-label': title }))));
   for (const { title, note, images } of data.pictures)
     byId('pictures').append(element('h2', {}, title), element('p', { class: 'note' }, note),
