@@ -20,7 +20,6 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 #include <utility>
 
 namespace vorion::splat {
