@@ -13,7 +13,6 @@
 #include "render/MeshRules.h"
 #include "render/Pictures.h"
 #include "render/Report.h"
-#include "scene/LocalFrame.h"
 
 #include <fmt/format.h>
 #include <memory>
