@@ -207,10 +207,10 @@ PicturePlaces findPictures(const std::vector<fs::path> &Folders,
 }
 
 std::optional<Location> findCameras(const fs::path &Path) {
-  auto F = findCapture(Path);
+  auto F = findCapture(Path, /*NeedsPictures=*/false);
   if (!F && (Path.extension() == ".bin" || Path.extension() == ".txt"))
-    F = findCapture(Path.has_parent_path() ? Path.parent_path()
-                                           : fs::path("."));
+    F = findCapture(Path.has_parent_path() ? Path.parent_path() : fs::path("."),
+                    /*NeedsPictures=*/false);
   return F;
 }
 

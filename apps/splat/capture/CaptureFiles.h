@@ -36,7 +36,8 @@ struct Location {
 std::optional<Location> findCapture(const std::filesystem::path &Path,
                                     bool NeedsPictures = true);
 
-/// The same, but \p Path may also be one of COLMAP's files.
+/// The same for poses, which need no pictures; \p Path may also be one of
+/// COLMAP's files.
 std::optional<Location> findCameras(const std::filesystem::path &Path);
 
 /// The picture \p Name, with or without extension.

@@ -150,6 +150,25 @@ TEST_P(Captures, ViewsWithoutAPictureAreLeftOutAndCounted) {
       << C.error().What;
 }
 
+TEST(Capture, OnlyPosesAreReadOfAModelWithoutPictures) {
+  Folder Undistorted;
+  for (const auto &[Name, Content] : colmapTextOf(sampleCapture())) {
+    if (Name.starts_with("images/"))
+      Undistorted["dense/" + Name] = Content;
+    else
+      Undistorted[Name] = Undistorted["dense/" + Name] = Content;
+  }
+  const CaptureFolder F(Undistorted);
+  const auto C = readCapture(F.path());
+  ASSERT_TRUE(C) << C.error().What;
+  ASSERT_FALSE(C->Notes.empty());
+  EXPECT_EQ(C->Notes.front(), "the model dense/sparse/0");
+  const auto Poses = readCaptureCameras(F.path(), LensOf::Undistorted);
+  ASSERT_TRUE(Poses) << Poses.error().What;
+  ASSERT_FALSE(Poses->Files.empty());
+  EXPECT_EQ(Poses->Files.front(), F.path("sparse/0/cameras.txt"));
+}
+
 TEST(Capture, MasksAreFoundByNameOrByPath) {
   const std::string Png = pngOf(8, 6, std::string(192, '\x7f'));
   const CaptureOptions Files{{}, false, MaskSource::Files};
