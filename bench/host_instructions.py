@@ -73,7 +73,7 @@ def measured(builds, out):
     for name in PROGRAMS:
         builds[-1].tool("vorion-clang", "-O3", "-DREPEATS=1", os.path.join(source, name + ".c"),
                         os.path.join(source, "device.c"), "-o", name + ".elf")
-        yield name, [b.counted("vorion-sim", name + ".elf", "--threads", "1", "--config", "one-core.json")
+        yield name, [b.counted("vorion-sim", name + ".elf", "--set", "host_threads=1", "--config", "one-core.json")
                      for b in builds]
     builds[-1].tool("splat", "demo-scene", "-o", "scene.ply", "--cameras", "cameras.json", "--gaussians", "4000")
     for name, options in (("frame", []), ("frame with the clock", ["--time"])):

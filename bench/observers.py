@@ -98,7 +98,7 @@ def main():
         wanted.insert(1, ("not built in", []))
     rows = []
     for name, extra in wanted:
-        simulator = [f"./{builds[name == 'not built in'][0]}", "multiply.elf", "--threads", "1"]
+        simulator = [f"./{builds[name == 'not built in'][0]}", "multiply.elf", "--set", "host_threads=1"]
         # What the run itself costs, without reading the program and making the machine.
         start = instructions(folder, simulator + ["--list-kernels"])
         count = instructions(folder, simulator + run + extra) - start

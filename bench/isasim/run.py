@@ -261,12 +261,12 @@ def measure(name, rounds):
     for _ in range(rounds):
         most.append(limits())
         if "translator" in engines:
-            text, run_stats = simulate(name + ".lane", "--threads", "1", "--config", "one-lane.json")
+            text, run_stats = simulate(name + ".lane", "--set", "host_threads=1", "--config", "one-lane.json")
             if text != expected:
                 raise RuntimeError(f"{name}: {text} translated for one lane, {expected} expected")
             alone.append(run_stats["host_cpu_seconds"])
         for (engine, threads), into in stats.items():
-            text, run_stats = simulate(name + ".elf", "--threads", str(threads), "--set", "engine=" + engine, *arguments(name))
+            text, run_stats = simulate(name + ".elf", "--set", f"host_threads={threads}", "--set", "engine=" + engine, *arguments(name))
             text = depths_sum() if name == "project" else text
             if text != expected:
                 raise RuntimeError(f"{name}: {text} on 16 lanes, {expected} on one")
@@ -308,7 +308,7 @@ def observer_cost(names):
         run("cmake", "--build", tree, "--target", "vorion-sim", "-j", "2")
         for name in names:
             run("valgrind", "--tool=callgrind", "--callgrind-out-file=callgrind.out", "--log-file=callgrind.log",
-                os.path.join(tree, "bin", "vorion-sim"), name + ".once", "--threads", "1", "--config", "small.json")
+                os.path.join(tree, "bin", "vorion-sim"), name + ".once", "--set", "host_threads=1", "--config", "small.json")
             with open(path("callgrind.log"), encoding="utf-8") as file:
                 collected = next(line for line in file if "Collected" in line)
             counts.setdefault(name, {})[state] = int(collected.split()[-1])

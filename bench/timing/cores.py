@@ -88,7 +88,7 @@ def time_of(program, preset, warps, changes=(), options=()):
     settings = ("machine=prototype-on-chip", "sockets_per_cluster=1", "cores_per_socket=1", f"warps_per_core={warps}",
                 f"timing.core.preset={preset}", "timing.core.dcache_kib=16", *changes)
     report = program + ".json"
-    done = subprocess.run(["vorion-sim", program, "--threads", "1", "--set", ",".join(settings), "--time", "--stats", report, *options],
+    done = subprocess.run(["vorion-sim", program, "--set", "host_threads=1", "--set", ",".join(settings), "--time", "--stats", report, *options],
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     if done.returncode:
         sys.exit(done.stderr)  # else it has notes on settings that are the machine's anyway

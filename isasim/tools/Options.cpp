@@ -90,14 +90,6 @@ void declareOptions(CLI::App &App, Options &O) {
       "--config", O.ConfigText,
       "the machine: a name, or a JSON configuration (default: VORION_CONFIG)");
   takesFile(App.get_option("--config"), {".json"})->type_name("NAME|FILE");
-  App.add_option("--max-instructions", O.MaxInstructions,
-                 "stop after N warp instructions (0: no limit)")
-      ->type_name("N")
-      ->check(isBetween<uint64_t>(0, 1'000'000'000'000'000'000));
-  App.add_option("--threads", O.Threads,
-                 "host threads (default and maximum: one per processor; "
-                 "results do not depend on it)")
-      ->type_name("N");
   Group.next("Time and energy");
   App.add_flag("--time", O.Time,
                "report the modelled execution time (docs/model.md)");

@@ -21,8 +21,7 @@ struct Options {
   std::string Kernel, Global, Local, SignatureFile;
   unsigned SignatureGranularity = 4;
   std::vector<std::string> Args, Set;
-  std::optional<uint64_t> MaxInstructions;
-  std::optional<unsigned> Threads, ClockMhz;
+  std::optional<unsigned> ClockMhz;
   bool PrintDefaultConfig = false, PrintSchema = false, ListKernels = false,
        Time = false, PrintTiming = false, PrintEnergy = false,
        PrintTechnology = false;

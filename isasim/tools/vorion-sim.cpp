@@ -115,10 +115,6 @@ Expected<Config> makeConfig(const Options &O, const Config &Default) {
       O.Time || O.ClockMhz || wantsEnergy(O) || O.Watch.needClock();
   if (O.ClockMhz)
     C.Timing.ClockMhz = *O.ClockMhz;
-  if (O.MaxInstructions)
-    C.MaxInstructions = *O.MaxInstructions;
-  if (O.Threads)
-    C.HostThreads = *O.Threads;
   if (!O.PrintDefaultConfig)
     for (const std::string &Idle : idleSettings(Before, C, settings(O)))
       printDiagnostic("vorion-sim", "note", "", Idle);

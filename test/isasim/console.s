@@ -2,8 +2,8 @@
 # REQUIRES: vorion-mc, vorion-sim
 # RUN: sh %S/Inputs/assemble.sh %build %s %t.elf
 # RUN: vorion-sim %t.elf | FileCheck %s
-# RUN: vorion-sim %t.elf --threads 1 > %t.1
-# RUN: vorion-sim %t.elf --threads 5 > %t.5
+# RUN: vorion-sim %t.elf --set host_threads=1 > %t.1
+# RUN: vorion-sim %t.elf --set host_threads=5 > %t.5
 # RUN: diff %t.1 %t.5
 
 # CHECK:      core 0 abcdefghijklmnop{{$}}

@@ -8,7 +8,7 @@
 # RUN: sh %S/Inputs/assemble.sh %build %s %t/p.elf
 # RUN: vorion-sim %t/p.elf --energy > %t/first
 # RUN: FileCheck %s --input-file %t/first --implicit-check-not=note
-# RUN: vorion-sim %t/p.elf --energy --threads 1 | cmp - %t/first
+# RUN: vorion-sim %t/p.elf --energy --set host_threads=1 | cmp - %t/first
 # RUN: vorion-sim %t/p.elf --voltage 0.8 | FileCheck %s --check-prefix=VOLTS
 # Counters of a run say it where the clock is on, and of all runs.
 # RUN: vorion-sim %t/p.elf --time --stats %t/timed.json > %t/timed.txt

@@ -2,8 +2,8 @@
 # is what its neighbour reads after it.
 # REQUIRES: vorion-mc, vorion-sim
 # RUN: sh %S/Inputs/assemble.sh %build %s %t.elf
-# RUN: vorion-sim %t.elf --threads 1
-# RUN: vorion-sim %t.elf --threads 3
+# RUN: vorion-sim %t.elf --set host_threads=1
+# RUN: vorion-sim %t.elf --set host_threads=3
   .globl _start
 _start:
   csrr s0, vx_core_id

@@ -49,7 +49,7 @@
 # LANES-NEXT: exit 3
 
 # A kernel that traps leaves no output file.
-# RUN: not vorion-sim %t.elf --global 100 --arg buf:8 --arg out:400@%t.never --arg i32:1 --arg local:9 --max-instructions 20
+# RUN: not vorion-sim %t.elf --global 100 --arg buf:8 --arg out:400@%t.never --arg i32:1 --arg local:9 --set max_instructions=20
 # RUN: not ls %t.never
 
   .section .text.vorion_start, "ax", @progbits

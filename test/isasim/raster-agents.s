@@ -2,13 +2,13 @@
 # do not depend on host threads.
 # REQUIRES: vorion-mc, vorion-sim
 # RUN: sh %S/Inputs/assemble.sh %build %s %t.elf
-# RUN: vorion-sim %t.elf --threads 1 --stats %t.1.json | FileCheck %s
-# RUN: vorion-sim %t.elf --threads 4 --stats %t.4.json | FileCheck %s
+# RUN: vorion-sim %t.elf --set host_threads=1 --stats %t.1.json | FileCheck %s
+# RUN: vorion-sim %t.elf --set host_threads=4 --stats %t.4.json | FileCheck %s
 # RUN: grep -v host_ %t.1.json > %t.1.txt
 # RUN: grep -v host_ %t.4.json > %t.4.txt
 # RUN: diff %t.1.txt %t.4.txt
 # What watches the clock changes nothing, and needs no --time.
-# RUN: vorion-sim %t.elf --threads 4 --tiles %t.tiles --stats %t.on.json
+# RUN: vorion-sim %t.elf --set host_threads=4 --tiles %t.tiles --stats %t.on.json
 # RUN: %python %S/Inputs/tiles.py %t.tiles %t.1.json %t.on.json
 # CHECK: raster commands 8{{$}}
 # CHECK: raster gaussians 8{{$}}

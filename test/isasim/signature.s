@@ -16,7 +16,7 @@
 
 # Without the symbols, or without a file to write to, there is none.
 # RUN: llvm-objcopy-19 --strip-all %t.elf %t.stripped
-# RUN: not vorion-sim %t.stripped --max-instructions 100000 --one-hart +signature=%t.none 2>&1 | FileCheck %s --check-prefix=LIMIT
+# RUN: not vorion-sim %t.stripped --set max_instructions=100000 --one-hart +signature=%t.none 2>&1 | FileCheck %s --check-prefix=LIMIT
 # LIMIT: limit reached: {{[0-9]+}} instructions, the maximum
 # RUN: not vorion-sim %t.elf --one-hart +signature=%t.nofolder/x 2>&1 | FileCheck %s --check-prefix=FOLDER
 # FOLDER: vorion-sim: error: {{.*}}.nofolder/x: cannot write: No such file or directory

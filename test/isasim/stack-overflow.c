@@ -2,7 +2,7 @@
 // lanes' stacks alone.
 // REQUIRES: vorion-clang, vorion-link, vorion-sim
 // RUN: vorion-clang -O1 %s -o %t.elf
-// RUN: not vorion-sim %t.elf --threads 1 2>&1 | FileCheck %s
+// RUN: not vorion-sim %t.elf --set host_threads=1 2>&1 | FileCheck %s
 // CHECK: trap: core 2, warp 0, lane 0: stack overflow
 // CHECK-NEXT: <depth
 #include <vorion.h>

@@ -2,8 +2,8 @@
 # REQUIRES: vorion-mc, vorion-sim
 # RUN: sh %S/Inputs/assemble.sh %build %s %t.elf
 # RUN: echo '{"warps_per_core": 4}' > %t.json
-# RUN: vorion-sim %t.elf --config %t.json --threads 1
-# RUN: vorion-sim %t.elf --config %t.json --threads 3
+# RUN: vorion-sim %t.elf --config %t.json --set host_threads=1
+# RUN: vorion-sim %t.elf --config %t.json --set host_threads=3
   .globl _start
 _start:
   csrr a0, vx_num_warps

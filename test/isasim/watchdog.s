@@ -7,7 +7,7 @@
 # CHECK-NEXT: core.warp 0.0 1.0 {{.*}}: running
 # CHECK-NEXT: pc 0x{{[0-9a-f]+}} <_start{{.*}}>: {{.*}}, active lanes 0x0001
 # CHECK: exit 5
-# RUN: sh -c 'vorion-sim %t.elf --max-instructions 1000 2> %t.err; echo "exit $?" >> %t.err'
+# RUN: sh -c 'vorion-sim %t.elf --set max_instructions=1000 2> %t.err; echo "exit $?" >> %t.err'
 # RUN: FileCheck %s --check-prefix=COUNT < %t.err
 # COUNT: limit reached: {{[0-9]+}} instructions, the maximum
 # COUNT: exit 5

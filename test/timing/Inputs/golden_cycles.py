@@ -131,7 +131,7 @@ def simulate(build, folder, loop, settings):
         with open(path + ".s", "w", encoding="utf-8") as file:
             file.write(START.replace("COUNT", str(rounds)) + body + END)
         subprocess.run(["sh", ASSEMBLE, build, path + ".s", path + ".elf"], check=True)
-    subprocess.run([os.path.join(build, "bin", "vorion-sim"), path + ".elf", "--threads", "1", "--time", "--stats", path + ".json",
+    subprocess.run([os.path.join(build, "bin", "vorion-sim"), path + ".elf", "--set", "host_threads=1", "--time", "--stats", path + ".json",
                     "--set", ",".join(settings)], check=True, stdout=subprocess.DEVNULL)
     with open(path + ".json", encoding="utf-8") as file:
         time = json.load(file)["runs"][0]["time"]

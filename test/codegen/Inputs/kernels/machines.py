@@ -136,7 +136,7 @@ class Device:
             file.write(start)
         options = [text for argument in (f"inout:{base}.start@{base}.out", *arguments) for text in ("--arg", argument)]
         try:
-            ran = run(["vorion-sim", "--threads", "1", "--max-instructions", str(most), program,
+            ran = run(["vorion-sim", "--set", "host_threads=1", "--set", f"max_instructions={most}", program,
                        "--global", str(groups * lanes), "--local", str(lanes), *options])
         except subprocess.TimeoutExpired:
             raise Wrong(f"no end within {TIMEOUT} s") from None

@@ -52,7 +52,7 @@ def on_device(library, source, base, level):
     if built.returncode:
         return "refused", failure(built)
     for word, machine, most in MACHINES:
-        ran = run(["vorion-sim", "--threads", "1", "--max-instructions", str(most), "--set", machine, program], stdout=subprocess.DEVNULL)
+        ran = run(["vorion-sim", "--set", "host_threads=1", "--set", f"max_instructions={most}", "--set", machine, program], stdout=subprocess.DEVNULL)
         if ran.returncode == 0:
             os.remove(program)
             return word, ""

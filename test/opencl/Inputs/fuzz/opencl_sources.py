@@ -110,7 +110,7 @@ def main():
                 for name, given in kernels_of(image):
                     ended, said = cases.run(
                         ["vorion-sim", image, "--kernel", name, "--global", "24",
-                         "--max-instructions", "200000", "--watchdog", "20", *given])
+                         "--set", "max_instructions=200000", "--watchdog", "20", *given])
                     # 2: a group size that the source requires and 24 is no multiple of.
                     if ended not in (0, 1, 2, 4, 5):
                         wrong = f"kernel {name} ended with {ended}: {said}"

@@ -54,7 +54,7 @@ def check(kernels, forms, seed, folder):
     bad = []
     for name, size in program.runs():
         share, want = want[:4 * program.out_words(size)], want[4 * program.out_words(size):]
-        command = ["vorion-sim", "--threads", "1", "--max-instructions", "20000000", at("kernels.elf"), "--kernel", name,
+        command = ["vorion-sim", "--set", "host_threads=1", "--set", "max_instructions=20000000", at("kernels.elf"), "--kernel", name,
                    "--global", str(GROUPS * size), "--local", str(size), "--arg", f"out:{len(share)}@{at('out')}",
                    "--arg", f"buf@{at('in')}", "--arg", f"local:{4 * LOCAL_WORDS * size}", "--arg", f"u32:{program.argument}"]
         ran = run(command)
