@@ -307,14 +307,14 @@ Expected<std::string> annotate(StringRef Objdumped, const Profile &Of,
 std::optional<std::string> takeCyclesOption(std::vector<StringRef> &Arguments) {
   for (size_t I = 0; I < Arguments.size(); ++I) {
     StringRef A = Arguments[I];
-    if (A == "--cycles") {
+    if (A == "--profile") {
       std::string Value =
           I + 1 < Arguments.size() ? Arguments[I + 1].str() : "";
       Arguments.erase(Arguments.begin() + I,
                       Arguments.begin() + std::min(I + 2, Arguments.size()));
       return Value;
     }
-    if (A.consume_front("--cycles=")) {
+    if (A.consume_front("--profile=")) {
       Arguments.erase(Arguments.begin() + I);
       return A.str();
     }
@@ -326,7 +326,7 @@ int runWithCycles(StringRef Program, std::vector<StringRef> Arguments,
                   bool HasProgram, const std::string &File) {
   if (File.empty())
     return reportError(Tool, {"",
-                              "--cycles: nothing follows, expected the "
+                              "--profile: nothing follows, expected the "
                               "name of a profile",
                               ExitCode::Usage});
   const Expected<Profile> Read = readProfile(File);

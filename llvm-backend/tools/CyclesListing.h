@@ -1,4 +1,4 @@
-// `vorion-objdump --cycles PROFILE`: llvm-objdump's listing of a program with
+// `vorion-objdump --profile PROFILE`: llvm-objdump's listing of a program with
 // what the simulator's profile says of each instruction beside it.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace vorion {
 
-/// The value of --cycles, if it is among \p Arguments; it is taken out. Empty
+/// The value of --profile, if it is among \p Arguments; it is taken out. Empty
 /// if nothing follows.
 std::optional<std::string>
 takeCyclesOption(std::vector<llvm::StringRef> &Arguments);

@@ -96,9 +96,9 @@ int main(int Argc, char **Argv) {
   // What is ours comes first, then llvm-objdump's long list.
   if (Argc == 2 && Arguments[0] == "--help")
     llvm::outs()
-        << "usage: vorion-objdump --source --cycles PROFILE "
+        << "usage: vorion-objdump --source --profile PROFILE "
            "[program.elf]\n\n"
-           "  --cycles=<profile>      beside each instruction, its "
+           "  --profile=<profile>      beside each instruction, its "
            "cycles and how often it was\n"
            "                          executed: what vorion-sim --time "
            "--profile=FILE.json wrote\n\n";

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""cycle_sums.py PROFILE LISTING: whether the listing of vorion-objdump --cycles has each instruction of the profile once."""
+"""cycle_sums.py PROFILE LISTING: whether the listing of vorion-objdump --profile has each instruction of the profile once."""
 
 import json
 import re
