@@ -3,19 +3,13 @@
 
 import os
 import re
-import subprocess
 import sys
+
+from programs import run
 
 scratch = sys.argv[1]
 # Chroma of 4:2:0 and quantisation, of pictures this small.
 LEAST_DB = 30
-
-
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}: {done.stdout}{done.stderr}")
-    return done.stdout
 
 
 def path(name):

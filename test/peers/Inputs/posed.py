@@ -8,20 +8,13 @@ similarity that maps the places of the cameras.
 import json
 import os
 import re
-import subprocess
 import sys
 
 import numpy as np
+from programs import run
 
 scratch = sys.argv[1]
 VIEWS, WIDTH, HEIGHT, FOCAL = 12, 400, 300, 380.0
-
-
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}: {done.stdout}{done.stderr}")
-    return done.stdout + done.stderr
 
 
 def path(name):

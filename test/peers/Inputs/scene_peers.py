@@ -6,21 +6,15 @@ PEER is splat-transform or gaussian-splats-3d; MODULES is the folder node_module
 
 import json
 import os
-import subprocess
 import sys
 
 import numpy as np
+from programs import run
 
 peer, modules, scratch = sys.argv[1:]
 PACKAGE = {"splat-transform": "@playcanvas/splat-transform", "gaussian-splats-3d": "@mkkellogg/gaussian-splats-3d"}[peer]
 # Readers decode a stored step in fp32 by other formulas than ours.
 RELATIVE = 1e-5
-
-
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}: {done.stdout}{done.stderr}")
 
 
 def path(name):
