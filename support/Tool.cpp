@@ -1,5 +1,6 @@
 #include "vorion/support/Tool.h"
 
+#include "vorion/support/ChildGroup.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/RemovedAtEnd.h"
 #include "vorion/support/StatusLine.h"
@@ -42,6 +43,7 @@ std::string_view ToolName;
 /// signal. Takes no memory, of which there may be none.
 void tidyUp() {
   keepStatus();
+  endChildGroups();
   removeAtEnd();
 }
 

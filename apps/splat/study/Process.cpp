@@ -1,6 +1,7 @@
 #include "study/Process.h"
 
 #include "study/PointStore.h"
+#include "vorion/support/ChildGroup.h"
 #include "vorion/support/Environment.h"
 #include "vorion/support/File.h"
 
@@ -83,7 +84,7 @@ static int waitFor(pid_t Child, const std::function<bool()> &GiveUp,
     if (!GiveUp)
       continue;
     if (GiveUp())
-      kill(Child, SIGKILL);
+      kill(-Child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return Status;
@@ -112,10 +113,15 @@ runProgram(std::vector<std::string> Words,
     Open(STDERR_FILENO, LogFile);
   // What another thread opens at this moment is not for it.
   posix_spawn_file_actions_addclosefrom_np(&Actions, STDERR_FILENO + 1);
+  // A group with what it starts, which ends with this process.
+  posix_spawnattr_t Attributes;
+  posix_spawnattr_init(&Attributes);
+  posix_spawnattr_setflags(&Attributes, POSIX_SPAWN_SETPGROUP);
   pid_t Child = 0;
   const int Problem =
-      posix_spawn(&Child, Words.front().c_str(), &Actions, nullptr,
+      posix_spawn(&Child, Words.front().c_str(), &Actions, &Attributes,
                   pointersTo(Words).data(), pointersTo(Environment).data());
+  posix_spawnattr_destroy(&Attributes);
   posix_spawn_file_actions_destroy(&Actions);
   if (Problem != 0)
     return Error{
@@ -124,6 +130,7 @@ runProgram(std::vector<std::string> Words,
                     "for a process",
                     Words.front(), std::strerror(Problem)),
         ExitCode::LimitReached};
+  const ChildGroup Ends(Child);
   rusage Used{};
   const int Status = waitFor(Child, GiveUp, Used);
   if (!WIFEXITED(Status))

@@ -31,8 +31,9 @@ Expected<std::string> findProgram(const std::string &Name,
 
 /// Runs the command \p Words, whose first element is the path of a program,
 /// with this process's environment and \p Variables. Standard output goes to \p
-/// OutFile, standard error to \p LogFile, which may be the same. An Error if it
-/// cannot be started or is terminated by a signal; \p GiveUp as below.
+/// OutFile, standard error to \p LogFile, which may be the same. A signal that
+/// ends this process ends it and what it started, too (runTool()). An Error if
+/// it cannot be started or is terminated by a signal; \p GiveUp as below.
 Expected<ProcessEnd>
 runProgram(std::vector<std::string> Words,
            const std::map<std::string, std::string> &Variables,

@@ -1,9 +1,18 @@
 #include "study/Study.h"
 
 #include "io/TestFiles.h"
+#include "study/Process.h"
+#include "vorion/support/Tool.h"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <fmt/format.h>
+#include <fstream>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
 
 using namespace vorion;
 using namespace vorion::splat;
@@ -110,6 +119,31 @@ TEST_F(StudyTest, AFailureEndsItAndWhatWasMeasuredIsKept) {
   ASSERT_FALSE(Missing);
   EXPECT_EQ(Missing.error().What,
             "point c is missing, expected its measurement");
+}
+
+TEST(RunProgram, ASignalEndsWhatItHasStarted) {
+  const TestFolder Folder;
+  const std::string Started = Folder.path("started");
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+  const pid_t Child = ::fork();
+  if (Child == 0) {
+    catchEndingSignals();
+    const auto Ended = runProgram(
+        {"/bin/sh", "-c",
+         fmt::format("sleep 5 & echo $! > {0}.new && mv {0}.new {0}; wait",
+                     Started)},
+        {}, "/dev/null", "/dev/null");
+    ::_exit(Ended ? 0 : 1);
+  }
+  pid_t Grandchild = 0;
+  while (!(std::ifstream(Started) >> Grandchild))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ::kill(Child, SIGTERM);
+  int Status = 0;
+  ::waitpid(Child, &Status, 0);
+  EXPECT_TRUE(WIFSIGNALED(Status));
+  ASSERT_EQ(::waitpid(Grandchild, &Status, 0), Grandchild);
+  EXPECT_TRUE(WIFSIGNALED(Status));
 }
 
 } // namespace
