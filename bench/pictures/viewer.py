@@ -4,6 +4,7 @@
 usage: viewer.py SCENE CAMERAS OUT.png
 """
 
+import argparse
 import os
 import subprocess
 import sys
@@ -17,10 +18,11 @@ PIXEL = (0.55, 0.55)  # shares of the picture
 
 
 def main():
-    if len(sys.argv) != 4:
-        sys.exit(__doc__)
-    scene, cameras, output = sys.argv[1:]
-    server = subprocess.Popen(["splat", "view", scene, "--cameras", cameras, "--size", "480x272"], stdout=subprocess.PIPE, text=True)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in ("scene", "cameras", "output"):
+        parser.add_argument(name)
+    args = parser.parse_args()
+    server = subprocess.Popen(["splat", "view", args.scene, "--cameras", args.cameras, "--size", "480x272"], stdout=subprocess.PIPE, text=True)
     try:
         address = server.stdout.readline().split()[-1]
         with tempfile.TemporaryDirectory() as folder:
@@ -35,7 +37,7 @@ def main():
             shown.mouse("mousePressed", *at)
             shown.mouse("mouseReleased", *at)
             shown.wait("!document.getElementById('gaussians').hidden")
-            shown.screenshot(output)
+            shown.screenshot(args.output)
             shown.close()
     finally:
         server.terminate()
