@@ -89,7 +89,7 @@ def started(*words):
     return process, urllib.parse.urlsplit(said.split()[-1])
 
 
-browser = Browser(FOLDER)
+browser, process = Browser(FOLDER), None
 try:
     process, at = started("stopped.ply", "--iterations", "100000", "--view", "--time", "--time-every", "1", "--score-every", "1")
     watch(browser, process, at)
@@ -116,4 +116,7 @@ try:
     # Requests that a run's end left without an answer are no faults of the page.
     assert all(c.get("source") == "network" for c in browser.complaints), browser.complaints
 finally:
+    # After a failure a training goes on for days.
+    if process:
+        process.kill()
     browser.close()
