@@ -133,7 +133,7 @@ void Clock::begin(const CodeTable &Code) {
     C.begin(Ops, FirstWord, Begun, LaunchedAt);
   Horizon = 0;
   Ended.assign(Cores.size(), false);
-  Turns.assign(placeOfHost() + (Host ? 1 : 0), Turn());
+  AllTurns.assign(placeOfHost() + (Host ? 1 : 0));
 }
 
 uint64_t Clock::copies(const HostCopy &Copy, CommandOrder Order) {
@@ -144,10 +144,10 @@ uint64_t Clock::copies(const HostCopy &Copy, CommandOrder Order) {
 /// rasterizers' work is all that there is.
 template <typename Function> void Clock::goOnWithoutCores(Function IsDone) {
   BetweenRuns = true;
-  Turns.assign(placeOfHost() + 1, Turn());
+  AllTurns.assign(placeOfHost() + 1);
   Ended.assign(Cores.size(), true);
   lastWork();
-  for (unsigned N = placeOfRaster(0); N != Turns.size(); ++N)
+  for (unsigned N = placeOfRaster(0); N != AllTurns.size(); ++N)
     update(N);
   for (unsigned Steps = 1; !IsDone() && step(); ++Steps)
     if (Steps % LongestStretch == 0 && Budget.isOver())
@@ -212,7 +212,7 @@ bool Clock::isOverfull() const {
 
 /// False if the time is over before all is taken.
 bool Clock::takeAll() {
-  for (unsigned N = 0; N != Turns.size(); ++N)
+  for (unsigned N = 0; N != AllTurns.size(); ++N)
     update(N);
   for (unsigned Steps = 1; step(); ++Steps)
     if (Steps % LongestStretch == 0 && Budget.isOver())
@@ -338,23 +338,26 @@ bool Clock::coresAreDone() const {
 }
 
 void Clock::update(unsigned Who) {
+  if (Who == placeOfHost()) {
+    AllTurns.set(Who, Host->turn());
+    return;
+  }
+  if (Who >= placeOfPixels(0)) {
+    AllTurns.set(Who, Pixels[Who - placeOfPixels(0)].turn());
+    return;
+  }
   if (Who >= placeOfRaster(0)) {
-    if (Who == placeOfHost()) {
-      Turns[Who] = Host->turn();
-      return;
-    }
-    if (Who < placeOfPixels(0))
-      Rasters[Who - placeOfRaster(0)].refresh();
-    Turns[Who] = Who < placeOfPixels(0) ? Rasters[Who - placeOfRaster(0)].turn()
-                                        : Pixels[Who - placeOfPixels(0)].turn();
+    RasterClock &R = Rasters[Who - placeOfRaster(0)];
+    R.refresh();
+    AllTurns.set(Who, R.turn());
     return;
   }
   CoreClock &C = Cores[Who];
   if (C.state() == CoreClock::State::Starved)
     C.advance();
-  const Turn Next = C.turn();
-  Turns[Who] =
-      std::min(Next.IsKnown || !Ended[Who] ? Next : Turn(), C.frontTurn());
+  const Turn OfCore = C.turn();
+  AllTurns.set(Who, std::min(OfCore.IsKnown || !Ended[Who] ? OfCore : Turn(),
+                             C.frontTurn()));
 }
 
 /// The last of those that a barrier counts lets all go on.
@@ -443,27 +446,29 @@ void Clock::grant(unsigned Core, uint64_t Then) {
 /// Does the next request in the order of time; false if there is none, or if a
 /// core might still make an earlier one.
 bool Clock::step() {
-  auto First = std::min_element(Turns.begin(), Turns.end());
+  unsigned Who = AllTurns.first();
+  Turn First = AllTurns[Who];
   const Turn OfMemory(Memory.nextEvent());
-  if (!First->IsKnown && *First < OfMemory) {
+  if (!First.IsKnown && First < OfMemory) {
     if (!isOverfull())
       return false;
     ++OutOfOrder;
     const auto Known = [](Turn T) { return T.IsKnown ? T : Turn(); };
-    First = std::min_element(Turns.begin(), Turns.end(), [&](Turn A, Turn B) {
-      return Known(A) < Known(B);
-    });
+    Who = 0;
+    for (unsigned N = 1; N != AllTurns.size(); ++N)
+      if (Known(AllTurns[N]) < Known(AllTurns[Who]))
+        Who = N;
+    First = AllTurns[Who];
     // What is not known may wait for what memory answers.
-    if (!First->IsKnown)
+    if (!First.IsKnown)
       return stepMemory(OfMemory);
   }
   // Whoever goes on in a cycle knows all that memory has decided by then.
-  if (!(*First < OfMemory))
-    return stepMemory(*First);
-  if (!First->IsKnown)
+  if (!(First < OfMemory))
+    return stepMemory(First);
+  if (!First.IsKnown)
     return false;
-  const auto Who = static_cast<unsigned>(First - Turns.begin());
-  const uint64_t Then = First->At;
+  const uint64_t Then = First.At;
   if (Who < Cores.size()) {
     if (Cores[Who].frontTurn().At == Then)
       Cores[Who].beginFront(Memory);
@@ -489,7 +494,8 @@ bool Clock::stepMemory(Turn Next) {
   uint64_t Until = Next.IsKnown ? Next.At : Next.At - 1;
   if (coresAreDone())
     Until = std::min(Until, std::max(Horizon, coresQuietAt()));
-  if (Memory.nextEvent() == Turn::Never || Memory.nextEvent() > Until)
+  if (const uint64_t Event = Memory.nextEvent();
+      Event == Turn::Never || Event > Until)
     return false;
   advanceMemory(Until);
   return true;

@@ -4,6 +4,7 @@
 #include "core/HostBudget.h"
 #include "raster/WorkLog.h"
 #include "timing/common/TimeObserver.h"
+#include "timing/common/Turns.h"
 #include "timing/core/CoreClock.h"
 #include "timing/core/InstructionCache.h"
 #include "timing/host/HostUnits.h"
@@ -98,14 +99,14 @@ private:
   void stepRaster(unsigned Socket, uint64_t Then);
   void stepPixels(unsigned Cluster, uint64_t Then);
   void wake(unsigned Core, uint64_t Then);
-  /// Places in Turns, by which memory knows the units, too.
+  /// Places in AllTurns, by which memory knows the units, too.
   unsigned placeOfRaster(unsigned Socket) const {
     return static_cast<unsigned>(Cores.size()) + Socket;
   }
   unsigned placeOfPixels(unsigned Cluster) const {
     return static_cast<unsigned>(Cores.size() + Rasters.size()) + Cluster;
   }
-  /// Of the command processor and the DMA engines, the last of Turns.
+  /// Of the command processor and the DMA engines, the last of AllTurns.
   unsigned placeOfHost() const {
     return placeOfPixels(static_cast<unsigned>(Pixels.size()));
   }
@@ -135,7 +136,7 @@ private:
   uint64_t Launched = 0; ///< command of the run
   std::vector<OpInfo> Ops;
   std::vector<bool> Ended; ///< by core: all its warps have
-  std::vector<Turn> Turns; ///< of cores, rasterizers, pixel units, Host
+  Turns AllTurns;          ///< of cores, rasterizers, pixel units, Host
   std::vector<Answer> Answers;
   struct Arrived {
     std::vector<std::pair<unsigned, unsigned>> Warps; ///< core and warp

@@ -1,7 +1,9 @@
 /// The clock on programs whose time is known.
 #include "testing/TimedPrograms.h"
+#include "timing/common/Turns.h"
 #include "timing/memory/DramChannels.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
 
@@ -400,6 +402,23 @@ Words everything() {
                csrw(raster::Csr::Start, 0),
                csrw(raster::Csr::Start, 0),
                csrr(19, raster::Csr::Wait)};
+}
+
+TEST(Clock, TheFirstOfAllTurnsIsTheLowestOfTheEarliest) {
+  constexpr unsigned Count = 13;
+  Turns All;
+  All.assign(Count);
+  std::vector<Turn> Each(Count);
+  uint32_t State = 1;
+  for (unsigned N = 0; N != 2000; ++N) {
+    State = State * 1664525 + 1013904223;
+    const unsigned Who = (State >> 16) % Count;
+    Each[Who] = State >> 30 ? Turn(State >> 24 & 7, State >> 28 & 1) : Turn();
+    All.set(Who, Each[Who]);
+    const auto First = std::min_element(Each.begin(), Each.end());
+    ASSERT_EQ(All.first(), static_cast<unsigned>(First - Each.begin()));
+    ASSERT_EQ(All[Who], Each[Who]);
+  }
 }
 
 TEST(Clock, ChangesNothing) {

@@ -20,6 +20,7 @@ struct Turn {
 
   /// In the order of time: what is not known yet may have to be first.
   constexpr bool operator<(Turn Other) const { return word() < Other.word(); }
+  constexpr bool operator==(Turn Other) const { return word() == Other.word(); }
 
 private:
   /// As it lies in memory: this costs nothing.
