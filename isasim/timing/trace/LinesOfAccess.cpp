@@ -40,15 +40,6 @@ uint32_t Lanes::lineOf(uint32_t Address) const {
   return Address & LineMask;
 }
 
-/// The bits that are set in any active lane.
-uint32_t bitsOfAny(const WarpState &S, LaneWords Words) {
-  Words &= S.MaskWords;
-  uint32_t Any = 0;
-  for (unsigned L = 0; L != MaxLanes; ++L)
-    Any |= Words[L];
-  return Any;
-}
-
 /// Whether all active lanes share a line, which most accesses do; \p First is
 /// the address of one of them. It may say no where they do.
 bool Lanes::isOneLine(const uint32_t *Addresses, uint32_t First) const {

@@ -8,6 +8,15 @@
 
 namespace vorion::isasim {
 
+/// The bits of \p Words that are set in any active lane of \p S.
+inline uint32_t bitsOfAny(const WarpState &S, const LaneWords &Words) {
+  const LaneWords Active = Words & S.MaskWords;
+  uint32_t Any = 0;
+  for (unsigned L = 0; L != MaxLanes; ++L)
+    Any |= Active[L];
+  return Any;
+}
+
 /// Writes the distinct lines of memory that the active lanes of \p S name to
 /// \p Lines, which has room for one a lane, and returns how many. \p Addresses
 /// are by lane. \p InterleavedStacks is timing.core.interleaved_stacks. Local

@@ -24,6 +24,21 @@ TraceBuffer &bufferOf(WarpState *S) {
 
 uint32_t put(AccessWord A) { return std::bit_cast<uint32_t>(A); }
 
+/// Whether the active lanes name one word, or each lane the word behind its
+/// neighbour's, as most accesses do.
+bool isOneWordOrRow(const WarpState &S, const uint32_t *Addresses) {
+  LaneWords Words;
+  std::memcpy(&Words, Addresses, sizeof(Words));
+  Words /= 4;
+  LaneWords Lane;
+  for (unsigned L = 0; L != MaxLanes; ++L)
+    Lane[L] = L;
+  const auto First = static_cast<unsigned>(std::countr_zero(S.Mask));
+  const uint32_t Word = Addresses[First] / 4;
+  return !bitsOfAny(S, Words ^ Word) ||
+         !bitsOfAny(S, (Words - Lane) ^ (Word - First));
+}
+
 /// The most distinct words that one bank has to give to the active lanes.
 unsigned bankConflicts(const WarpState *S, const uint32_t *Addresses) {
   // Of each bank the words that it has to give so far, as a list of lanes from
@@ -31,6 +46,8 @@ unsigned bankConflicts(const WarpState *S, const uint32_t *Addresses) {
   uint8_t Last[MostLocalBanks] = {}, Before[MaxLanes],
           Given[MostLocalBanks] = {};
   const uint32_t Banks = S->Trace->LocalBanks;
+  if (Banks >= MaxLanes && isOneWordOrRow(*S, Addresses))
+    return 1;
   const bool IsPowerOfTwo = std::has_single_bit(Banks);
   unsigned Most = 1;
   for (uint32_t Left = S->Mask; Left; Left &= Left - 1) {
