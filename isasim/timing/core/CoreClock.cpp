@@ -174,11 +174,12 @@ const DataCache::Line *CoreClock::findInL1(uint32_t Address, uint64_t Now,
 
 /// Asks memory for a line of the data cache that the load at \p Place wants.
 /// Returns when it comes, Turn::Never if that is not known.
-uint64_t CoreClock::load(MemorySystem &Memory, unsigned Place, CacheRequest R) {
+uint64_t CoreClock::load(MemorySystem &Memory, unsigned Place,
+                         CacheRequest &&R) {
   const uint32_t Free = L1Misses.next();
   R.From = {ToMemory.Unit, LineTicket | Free};
   const uint64_t Writes = Memory.writers().count();
-  if (const auto Then = Memory.access(ToMemory, R)) {
+  if (const auto Then = Memory.access(ToMemory, std::move(R))) {
     InFlight.add(Place, *Then);
     Fills.push_back({R.Address, *Then});
     keepForFill(Then->At);
@@ -214,23 +215,22 @@ uint64_t CoreClock::leave(uint64_t Then, bool IsLoad) {
 bool CoreClock::access(MemorySystem &Memory) {
   const OpInfo &O = *Waiting;
   const auto A = std::bit_cast<AccessWord>(Trace->word());
+  const std::span<const uint32_t> Lines(Trace->words() + 1, A.Lines);
   if (const uint64_t Room = lsuFreeAt(); waitsInFront() && Room > At)
     return waitForAccess(Room);
-  for (unsigned N = 0; N != A.Lines; ++N)
-    Lines[N] = Trace->word(1 + N);
   unsigned Place = Timing.LsuQueue;
   uint64_t Free = 0;
   if (needsPlace(O, A)) {
     Place = firstPlace();
     Free = placeFreeAt(Place);
   }
-  const bool IsBlocked =
-      Free == Turn::Never || bankIsFull({Lines.data(), A.Lines});
+  const bool IsBlocked = Free == Turn::Never || bankIsFull(Lines);
   const bool Waits = waitsInFront() && (IsBlocked || !InFront.empty());
   if (!Waits && (IsBlocked || (Free > At && Timing.LsuFront == 0)))
     return waitForAccess(IsBlocked ? Turn::Never : Free);
   if (needsPlace(O, A) && !Waits) {
-    waitFor(Next, At, InFlight.arrivalOf(Place), CoreCycle::LsuQueue);
+    if (At > Next)
+      waitFor(Next, At, InFlight.arrivalOf(Place), CoreCycle::LsuQueue);
     InFlight.begin(Place);
     Accesses[Place] = {&O, Current, Serial};
   }
@@ -239,11 +239,12 @@ bool CoreClock::access(MemorySystem &Memory) {
   Trace->popWords(1 + A.Lines);
   LocalLanes += A.Lines == 0 ? Lanes : 0;
   if (Waits) {
-    InFront.push_back({&O, Current, Serial, Next, A, Lines});
+    InFront.push_back({&O, Current, Serial, Next, A, {}});
+    std::ranges::copy(Lines, InFront.back().Lines.begin());
     setLoaded(Current, O, {Turn::Never});
     beginFrontAt(At);
   } else {
-    begin(Memory, O, Current, A, beginAccess(Free), Place);
+    begin(Memory, O, Current, A, Lines, beginAccess(Free), Place);
   }
   finish(O);
   return true;
@@ -273,8 +274,8 @@ void CoreClock::beginFront(MemorySystem &Memory) {
     InFlight.begin(Place);
     Accesses[Place] = {&O, A.Warp, A.Serial};
   }
-  Lines = A.Lines;
-  const uint64_t Done = begin(Memory, O, A.Warp, A.Word, Begun, Place);
+  const uint64_t Done = begin(Memory, O, A.Warp, A.Word,
+                              {A.Lines.data(), A.Word.Lines}, Begun, Place);
   if (Watch && Done != Turn::Never)
     Watch->tell([&](TimeObserver &Each) {
       Each.loadDone(Number, A.Serial, Done + O.Latency);
@@ -289,71 +290,70 @@ void CoreClock::beginFront(MemorySystem &Memory) {
     advance();
 }
 
-/// The LSU begins the access \p O of \p Warp, to local memory or to Lines, at
+/// The LSU begins the access \p O of \p Warp, to local memory or to \p Lines,
+/// at
 /// \p Begun. Returns when it is done, Turn::Never if that is not known.
 uint64_t CoreClock::begin(MemorySystem &Memory, const OpInfo &O, unsigned Warp,
-                          AccessWord A, uint64_t Begun, unsigned Place) {
+                          AccessWord A, std::span<const uint32_t> Lines,
+                          uint64_t Begun, unsigned Place) {
   if (A.Lines == 0) {
     const uint64_t Done = localAccess(O, Warp, A, Begun, Place);
     if (Place != Timing.LsuQueue)
       InFlight.begin(Place, Done);
     return Done;
   }
-  CacheRequest R{.Now = Begun + Timing.AguCycles, .Address = 0};
-  if (O.Class == OpClass::Atomic) {
-    R.Op = CacheOp::Atomic;
-    R.Extra = A.Conflicts - 1;
-  } else if (O.Class == OpClass::Store) {
-    R.Op = A.Whole ? CacheOp::WriteWhole : CacheOp::Write;
-  }
+  const CacheOp Op = O.Class == OpClass::Load     ? CacheOp::Read
+                     : O.Class == OpClass::Atomic ? CacheOp::Atomic
+                     : A.Whole                    ? CacheOp::WriteWhole
+                                                  : CacheOp::Write;
+  const uint32_t Extra = Op == CacheOp::Atomic ? A.Conflicts - 1 : 0;
   const bool UsesL1 = L1.exists() && O.Class == OpClass::Load;
   bool IsStale = false;
-  const uint64_t First = R.Now;
+  const uint64_t First = Begun + Timing.AguCycles;
   const uint64_t Writes = Memory.writers().count();
-  uint64_t Last = First;
+  uint64_t Then = First, Last = First;
   uint32_t Room = Timing.LinesAtOnce;
-  for (unsigned N = 0; N != A.Lines; ++N, --Room) {
-    R.Address = Lines[N];
+  for (const uint32_t Address : Lines) {
     if (L1Banks.exist()) {
-      R.Now = L1Banks.accept(R.Address, First);
-      Last = std::max(Last, R.Now);
+      Then = L1Banks.accept(Address, First);
     } else if (Room == 0) {
-      R.Now += Timing.LineCycles;
+      Then += Timing.LineCycles;
       Room = Timing.LinesAtOnce;
     }
+    --Room;
     if (L1.exists() && !L1Banks.exist())
-      R.Now = leave(R.Now, UsesL1);
-    Last = std::max(Last, R.Now);
+      Then = leave(Then, UsesL1);
+    Last = std::max(Last, Then);
     if (UsesL1) {
-      const auto *Line = findInL1(R.Address, R.Now, Place);
+      const auto *Line = findInL1(Address, Then, Place);
       if (!LineFree.empty())
         LineFree[NextLine] =
-            Line ? std::max(Line->Ready.At, R.Now + Timing.DcacheCycles)
-                 : R.Now;
+            Line ? std::max(Line->Ready.At, Then + Timing.DcacheCycles) : Then;
       if (Line) {
         IsStale |=
-            Memory.writers().isWritten(R.Address, Line->Writes, ToMemory.Unit);
+            Memory.writers().isWritten(Address, Line->Writes, ToMemory.Unit);
         continue;
       }
-      if (LinesInFlight::Line *Asked = L1Misses.find(R.Address)) {
+      if (LinesInFlight::Line *Asked = L1Misses.find(Address)) {
         Asked->Waiting.push_back(InFlight.expect(Place));
         continue;
       }
     }
-    CacheRequest Below = R;
+    // Made for each, and passed on as it is: the host would wait for a copy.
+    CacheRequest Below{
+        .Now = Then, .Address = Address, .Op = Op, .Extra = Extra};
     if (L1Banks.exist())
-      Below.Now = L1Banks.send(R.Address, Below.Now);
+      Below.Now = L1Banks.send(Address, Then);
     // The tags have been looked up before the request goes on.
     Below.Now += UsesL1 || L1Banks.seesDequeues() ? Timing.DcacheCycles : 0;
     if (L1Banks.seesDequeues())
-      Below.Dequeued = {ToMemory.Unit,
-                        DequeueTicket | L1Banks.bankOf(R.Address)};
+      Below.Dequeued = {ToMemory.Unit, DequeueTicket | L1Banks.bankOf(Address)};
     if (UsesL1) {
-      const uint64_t Comes = load(Memory, Place, Below);
+      const uint64_t Comes = load(Memory, Place, std::move(Below));
       if (!LineFree.empty() && Comes != Turn::Never)
         LineFree[NextLine] = Comes;
     } else {
-      InFlight.ask(Memory, Place, Below);
+      InFlight.ask(Memory, Place, std::move(Below));
     }
   }
   // All have been looked up before the first comes.

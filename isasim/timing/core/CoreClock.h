@@ -6,7 +6,7 @@
 #include "timing/common/Turn.h"
 #include "timing/core/IssuePolicy.h"
 #include "timing/core/OpClass.h"
-#include "timing/memory/CachePolicy.h"
+#include "timing/memory/CacheTags.h"
 #include "timing/memory/LineWaits.h"
 #include "timing/trace/TraceWriter.h"
 #include "vorion/isasim/Timing.h"
@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,64 +28,56 @@ namespace vorion::isasim {
 class DataCache {
 public:
   /// Of core \p Core; none if \p Kib is 0.
-  DataCache(uint32_t Kib, uint32_t WaysIn, uint32_t Core)
-      : Ways(WaysIn), Sets(Kib * 1024 / TimingLineBytes / WaysIn),
-        Lines(size_t{Sets} * Ways),
-        Policy({"core", Core, Sets, Ways, /*Hint=*/false}) {}
+  DataCache(uint32_t Kib, uint32_t Ways, uint32_t Core) {
+    if (Kib == 0)
+      return;
+    Tags.emplace(CacheShape{.Bytes = Kib * 1024,
+                            .Ways = Ways,
+                            .Banks = 1,
+                            .Mshrs = 0,
+                            .HitCycles = 0,
+                            .Hint = false,
+                            .Name = "core",
+                            .Number = Core});
+    Lines.resize(Tags->places());
+  }
 
-  bool exists() const { return Sets != 0; }
+  bool exists() const { return Tags.has_value(); }
   void clear() {
-    std::fill(Lines.begin(), Lines.end(), Line());
-    Policy.clear();
+    if (Tags)
+      Tags->clear();
   }
 
   struct Line {
-    uint32_t Tag = 0; ///< line number plus 1, 0 for none
-    Arrival Ready;    ///< when it was or will be there
+    Arrival Ready; ///< when it was or will be there
     /// Writes to memory that it has seen (LineWriters::count()).
     uint64_t Writes = 0;
   };
   /// The line of \p Address, or nullptr.
   const Line *find(uint32_t Address) {
     const uint32_t Number = Address / TimingLineBytes;
-    const Line *Set = setOf(Number);
-    for (uint32_t W = 0; W != Ways; ++W)
-      if (Set[W].Tag == Number + 1) {
-        use(Number, W, false);
-        return &Set[W];
-      }
-    return nullptr;
+    const uint32_t Set = Tags->setOf(Number);
+    const size_t Place = Tags->find(Number, Set);
+    if (Place == CacheTags::None)
+      return nullptr;
+    Tags->use(Set, Place, {});
+    return &Lines[Place];
   }
 
   /// The line of \p Address comes at \p Ready with the first \p Writes
   /// writes in it.
   void fill(uint32_t Address, const Arrival &Ready, uint64_t Writes) {
     const uint32_t Number = Address / TimingLineBytes;
-    Line *Set = setOf(Number);
-    uint32_t Way = 0; // they are taken in order until all have lines
-    if (Set[Ways - 1].Tag != 0)
-      Way = Policy.victim(Number % Sets).Way;
-    else
-      while (Set[Way].Tag != 0)
-        ++Way;
-    Set[Way] = {Number + 1, Ready, Writes};
-    use(Number, Way, true);
+    const uint32_t Set = Tags->setOf(Number);
+    uint64_t Spared = 0;
+    const size_t Place = Tags->victim(Set, Spared);
+    Tags->replace(Set, Place, Number, {});
+    Lines[Place] = {Ready, Writes};
   }
 
 private:
-  Line *setOf(uint32_t Number) { return &Lines[size_t{Number % Sets} * Ways]; }
-  void use(uint32_t Number, uint32_t Way, bool IsFill) {
-    Policy.use({.Set = Number % Sets,
-                .Way = Way,
-                .Line = Number,
-                .IsFill = IsFill,
-                .IsWrite = false,
-                .Keep = false});
-  }
-
-  uint32_t Ways, Sets;
-  std::vector<Line> Lines;
-  CachePolicy Policy;
+  std::optional<CacheTags> Tags;
+  std::vector<Line> Lines; ///< by place
 };
 
 /// The lines that a data cache has asked memory for and that have not come.
@@ -447,7 +440,8 @@ private:
   bool needsPlace(const OpInfo &O, AccessWord A) const {
     return Timing.LoadsQueue ? O.Class != OpClass::Store : A.Lines != 0;
   }
-  unsigned firstPlace() const;
+  /// The place in flight that is free first.
+  unsigned firstPlace() const { return InFlight.firstOf(Timing.LsuQueue); }
   /// When a place among the accesses in flight is free; Turn::Never if unknown.
   uint64_t placeFreeAt(unsigned Place) const { return InFlight.readyAt(Place); }
   size_t placeOf(const OpInfo &O, uint64_t Begin) const;
@@ -482,11 +476,12 @@ private:
   bool bankIsFull(std::span<const uint32_t> Needed) const;
   void beginFrontAt(uint64_t Then);
   uint64_t begin(MemorySystem &Memory, const OpInfo &O, unsigned Warp,
-                 AccessWord A, uint64_t Begun, unsigned Place);
+                 AccessWord A, std::span<const uint32_t> Lines, uint64_t Begun,
+                 unsigned Place);
   bool waitForAccess(uint64_t Then);
   const DataCache::Line *findInL1(uint32_t Address, uint64_t Now,
                                   unsigned Place);
-  uint64_t load(MemorySystem &Memory, unsigned Place, CacheRequest R);
+  uint64_t load(MemorySystem &Memory, unsigned Place, CacheRequest &&R);
   uint64_t leave(uint64_t Then, bool IsLoad);
   void keepForFill(uint64_t Ready);
   void lineComes(const Answer &A);
@@ -597,9 +592,7 @@ private:
     unsigned Warp = 0;
     uint64_t Serial = 0; ///< as observers know it
   };
-  std::vector<LoadInFlight> Accesses;           ///< by place
-  using AccessLines = std::array<uint32_t, 32>; ///< more than AccessWord::Lines
-  AccessLines Lines{};                          ///< of the access that begins
+  std::vector<LoadInFlight> Accesses; ///< by place
   /// An access that has issued and waits in front of the LSU for something of
   /// which nobody knows yet when it comes.
   struct FrontAccess {
@@ -607,7 +600,7 @@ private:
     unsigned Warp;
     uint64_t Serial, IssuedAt;
     AccessWord Word;
-    AccessLines Lines;
+    std::array<uint32_t, 32> Lines; ///< more than AccessWord::Lines
   };
   std::deque<FrontAccess> InFront;
   uint64_t FrontAt = Turn::Never;

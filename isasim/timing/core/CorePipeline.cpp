@@ -93,15 +93,6 @@ bool CoreClock::waitUntilQuiet() {
   return true;
 }
 
-/// The place in flight that is free first.
-unsigned CoreClock::firstPlace() const {
-  unsigned Place = 0;
-  for (unsigned N = 1; N != Timing.LsuQueue; ++N)
-    if (InFlight.readyAt(N) < InFlight.readyAt(Place))
-      Place = N;
-  return Place;
-}
-
 /// The place for \p O, which begins at \p Begin or later: one that is free by
 /// then, whichever, or else the one that is free first.
 size_t CoreClock::placeOf(const OpInfo &O, uint64_t Begin) const {
@@ -262,7 +253,8 @@ uint64_t CoreClock::delayBehind(unsigned Conflicts, uint64_t Begun) {
 
 /// Waits until \p O has been fetched and its operands are there; false if
 /// nobody knows yet when that is.
-template <bool Ideal> inline bool CoreClock::reach(Front &F, const OpInfo &O) {
+template <bool Ideal>
+[[gnu::always_inline]] inline bool CoreClock::reach(Front &F, const OpInfo &O) {
   if constexpr (!Ideal) {
     if (F.FetchWhy == CoreCycle::Link)
       waitFor(F.Next, F.Fetched, CodeCame, CoreCycle::Fetch);

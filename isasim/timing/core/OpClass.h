@@ -35,13 +35,14 @@ struct OpInfo {
   /// Cycles until the warp's next instruction can issue if it is fetched only
   /// then, else 0.
   uint8_t Redirect = 0;
-  bool Spawns = false; ///< vx_wspawn
+  bool Spawns : 1 = false; ///< vx_wspawn
   /// Whether only its operands and its unit decide when it issues, and nothing
   /// of it is in the trace.
-  bool IsPlain = true;
+  bool IsPlain : 1 = true;
   /// Whether it keeps its unit for a cycle only.
-  bool IsLight = true;
+  bool IsLight : 1 = true;
 };
+static_assert(sizeof(OpInfo) == 16, "the clock reads one after the other");
 
 /// How often a unit has to begin for all \p Lanes of a warp.
 uint32_t passes(Port On, const CoreTiming &Params, unsigned Lanes);

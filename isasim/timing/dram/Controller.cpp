@@ -123,13 +123,6 @@ void Controller::addSteps(const Constraint &C) {
   }
 }
 
-void Controller::submit(const Request &R) {
-  assert(R.Where.Bank < Banks.size() && "a bank that the device has not");
-  assert(R.At >= AdvancedTo && "a request of the past");
-  Queues[R.IsWrite].Waiting.push(R);
-  ++Unanswered;
-}
-
 uint32_t Controller::room(bool IsWrite) const {
   const Queue &Q = Queues[IsWrite];
   const uint64_t Lines = (Q.Capacity - Q.Bursts) / BurstsOfLine;

@@ -9,6 +9,7 @@
 #include "timing/policy/Policy.h"
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -97,7 +98,12 @@ public:
   /// Takes a request. Its time is not before the last tick that advance() has
   /// come to. Requests of one time may be submitted in any order. One whose
   /// queue is full waits in front of it, behind earlier ones of its kind.
-  void submit(const Request &R);
+  void submit(const Request &R) {
+    assert(R.Where.Bank < Banks.size() && "a bank that the device has not");
+    assert(R.At >= AdvancedTo && "a request of the past");
+    Queues[R.IsWrite].Waiting.push(R.At, R.Id, R.Line, R.Where, R.IsWrite);
+    ++Unanswered;
+  }
 
   /// Lines for which the queue of reads or writes has room beyond what waits.
   uint32_t room(bool IsWrite) const;

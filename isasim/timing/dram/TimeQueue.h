@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace vorion::isasim {
@@ -15,21 +16,23 @@ public:
   const Element &front() const { return All[First]; }
   void pop() {
     ++First;
-    // What has left makes room when it is more than what is here.
-    if (First > size()) {
+    // What has left makes room when it is much more than what is here.
+    if (First > size() + Spare) {
       All.erase(All.begin(), All.begin() + static_cast<std::ptrdiff_t>(First));
       First = 0;
     }
   }
-  void push(const Element &E) {
-    auto Position = All.end();
-    const auto Front = All.begin() + static_cast<std::ptrdiff_t>(First);
-    while (Position != Front && IsBefore()(E, *(Position - 1)))
-      --Position;
-    All.insert(Position, E);
+  /// An element of \p Values, which is made where it stays if it comes in
+  /// order: the host would wait for one that it has to copy at once.
+  template <typename... Value> void push(Value &&...Values) {
+    All.emplace_back(std::forward<Value>(Values)...);
+    for (size_t N = All.size() - 1;
+         N != First && IsBefore()(All[N], All[N - 1]); --N)
+      std::swap(All[N], All[N - 1]);
   }
 
 private:
+  static constexpr size_t Spare = 64;
   std::vector<Element> All;
   size_t First = 0;
 };

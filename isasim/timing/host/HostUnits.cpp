@@ -245,7 +245,7 @@ void HostUnits::ended(uint64_t Number, uint64_t At) {
 }
 
 void HostUnits::push(uint64_t At, What Kind, uint64_t Number, uint32_t Place) {
-  Events.push({std::max(At, Present), Serial++, Kind, Number, Place});
+  Events.push(std::max(At, Present), Serial++, Kind, Number, Place);
 }
 
 void HostUnits::step(MemorySystem &Memory) {

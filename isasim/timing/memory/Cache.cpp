@@ -13,7 +13,7 @@ void SharedCache::tellBusy(uint32_t Bank, CycleSpan When) const {
 }
 
 Cache::Cache(const CacheShape &ShapeIn, MemoryBelow &BelowIn)
-    : Shape(ShapeIn), Below(BelowIn), Tags(Shape), Lines(Tags.places()),
+    : Shape(ShapeIn), Below(BelowIn), Tags(Shape), OfBanks(Shape.Banks),
       Banks(Shape.Banks), MshrFreeAt(size_t{Shape.Banks} * Shape.Mshrs),
       Mshrs(MshrFreeAt.size()) {}
 
@@ -23,8 +23,16 @@ uint32_t Cache::firstMshr(uint32_t Bank) const {
                                MshrFreeAt.begin());
 }
 
+/// When the bytes of a line that is there have come. That is before all that
+/// its bank does from now on, unless an MSHR still holds it.
+inline uint64_t Cache::readyAt(uint32_t Bank, uint32_t Number,
+                               uint32_t Note) const {
+  const uint32_t Miss = mshrOf(Bank, Note);
+  return Note && Mshrs[Miss].Number == Number ? MshrFreeAt[Miss] : 0;
+}
+
 std::optional<uint64_t> Cache::access(const CacheRequest &R) {
-  Bank &B = Banks[R.Address / TimingLineBytes % Shape.Banks];
+  Bank &B = Banks[OfBanks(R.Address / TimingLineBytes)];
   std::optional<uint64_t> Answer;
   if (!B.Waiting.empty() || !take(R, Answer))
     B.Waiting.push_back(R);
@@ -33,7 +41,7 @@ std::optional<uint64_t> Cache::access(const CacheRequest &R) {
 
 /// Does serve() and tells of it.
 bool Cache::take(const CacheRequest &R, std::optional<uint64_t> &Answer) {
-  const uint32_t OfBank = R.Address / TimingLineBytes % Shape.Banks;
+  const uint32_t OfBank = OfBanks(R.Address / TimingLineBytes);
   const Bank &B = Banks[OfBank];
   const uint64_t Begin = std::max(R.Now, B.FreeAt);
   if (!serve(R, Answer))
@@ -47,12 +55,8 @@ bool Cache::take(const CacheRequest &R, std::optional<uint64_t> &Answer) {
 /// access().
 bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
   const uint32_t Number = R.Address / TimingLineBytes;
-  const uint32_t OfBank = Number % Shape.Banks;
-  // The tags of a set, its uses and its lines lie in different places, of which
-  // the host's cache has seldom all.
+  const uint32_t OfBank = OfBanks(Number);
   const uint32_t Set = Tags.setOf(Number);
-  Tags.prefetch(Set);
-  __builtin_prefetch(Lines.data() + Tags.placeOf(Set), 1);
   const size_t Found = Tags.find(Number, Set);
   const bool IsRead = R.Op == CacheOp::Read;
   const bool IsWrite = R.Op == CacheOp::Write || R.Op == CacheOp::WriteWhole;
@@ -80,58 +84,56 @@ bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
     return true;
   }
   if (Found != CacheTags::None) {
-    Line &L = Lines[Found];
+    const uint32_t Note = Tags.note(Found);
+    const uint64_t ReadyAt = readyAt(OfBank, Number, Note);
     Tags.use(Set, Found, Use);
-    ++(L.ReadyAt > At ? Counted.Merged : Counted.Hits);
+    ++(ReadyAt > At ? Counted.Merged : Counted.Hits);
     const uint32_t Plus = Shape.HitCycles + R.Extra + R.Back;
     if (IsWrite)
       // A write is taken when the bank has it; who wrote does not wait.
       Answer = At + Shape.HitCycles / 2 + R.Back;
-    else if (L.ReadyAt != Open)
-      Answer = std::max(At, L.ReadyAt) + Plus;
+    else if (ReadyAt != Open)
+      Answer = std::max(At, ReadyAt) + Plus;
     else
-      Mshrs[L.Miss].Waiting.push_back({R.From, At, Plus});
+      Mshrs[mshrOf(OfBank, Note)].Waiting.emplace_back(R.From, At, Plus);
     return true;
   }
 
   const size_t Way = Tags.victim(Set, Counted.Kept);
-  Line &V = Lines[Way];
   if (Tags.isDirty(Way)) {
     ++Counted.Writebacks;
     Below.writeBack(At, Tags.number(Way) * TimingLineBytes);
   }
-  Tags.replace(Set, Way, Number, Use);
-  V = {At, Miss};
-  const uint64_t Begin = Fetches ? std::max(At, MshrFreeAt[Miss]) : At;
-  if (Fetches) {
-    Counted.MshrCycles += Begin - At;
-    // A miss that waits for an MSHR holds up its bank.
-    B.FreeAt = Begin + 1 + R.Extra;
-    Mshr &M = Mshrs[Miss];
-    M.Line = Way;
-    // The tags have been looked up before the request goes down.
-    V.ReadyAt =
-        Below.fetch(Begin + Shape.HitCycles / 2, R.Address, R.Keep, Miss)
-            .value_or(Open);
-    MshrFreeAt[Miss] = V.ReadyAt;
+  Tags.replace(Set, Way, Number, Use,
+               Fetches ? Miss - mshrOf(OfBank, 1) + 1 : 0);
+  if (!Fetches) {
+    Answer = At + Shape.HitCycles / 2 + R.Back;
+    return true;
   }
+  const uint64_t Begin = std::max(At, MshrFreeAt[Miss]);
+  Counted.MshrCycles += Begin - At;
+  // A miss that waits for an MSHR holds up its bank.
+  B.FreeAt = Begin + 1 + R.Extra;
+  Mshrs[Miss].Number = Number;
+  // The tags have been looked up before the request goes down.
+  const uint64_t ReadyAt =
+      Below.fetch(Begin + Shape.HitCycles / 2, R.Address, R.Keep, Miss)
+          .value_or(Open);
+  MshrFreeAt[Miss] = ReadyAt;
   const uint32_t Plus =
       Shape.HitCycles - Shape.HitCycles / 2 + R.Extra + R.Back;
   if (IsWrite)
     Answer = Begin + Shape.HitCycles / 2 + R.Back;
-  else if (V.ReadyAt != Open)
-    Answer = V.ReadyAt + Plus;
+  else if (ReadyAt != Open)
+    Answer = ReadyAt + Plus;
   else
-    Mshrs[Miss].Waiting.push_back({R.From, 0, Plus});
+    Mshrs[Miss].Waiting.emplace_back(R.From, 0, Plus);
   return true;
 }
 
 void Cache::fill(uint32_t Miss, uint64_t Then, std::vector<Answer> &Answers) {
   Mshr &M = Mshrs[Miss];
   MshrFreeAt[Miss] = Then;
-  // It may have been replaced already.
-  if (Line &L = Lines[M.Line]; L.ReadyAt == Open && L.Miss == Miss)
-    L.ReadyAt = Then;
   for (const Merged &W : M.Waiting)
     Answers.push_back({W.From, std::max(W.NotBefore, Then) + W.Plus});
   M.Waiting.clear();
@@ -150,13 +152,12 @@ void Cache::fill(uint32_t Miss, uint64_t Then, std::vector<Answer> &Answers) {
 
 uint64_t Cache::flush(uint64_t Now) {
   std::vector<uint64_t> Sent(Shape.Banks, Now);
-  for (size_t N = 0; N != Lines.size(); ++N)
+  for (size_t N = 0; N != Tags.places(); ++N)
     if (Tags.isDirty(N)) {
       ++Counted.Writebacks;
       Below.writeBack(Sent[Tags.number(N) % Shape.Banks]++,
                       Tags.number(N) * TimingLineBytes);
     }
-  std::ranges::fill(Lines, Line());
   Tags.clear();
   return *std::max_element(Sent.begin(), Sent.end());
 }

@@ -156,19 +156,15 @@ private:
   /// A time that is not decided yet.
   static constexpr uint64_t Open = std::numeric_limits<uint64_t>::max();
 
-  struct Line {
-    uint64_t ReadyAt = 0; ///< when its bytes have come
-    uint32_t Miss = 0;    ///< its MSHR while that is open
-  };
   /// A request for a line that is on its way.
   struct Merged {
     Ticket From;
     uint64_t NotBefore; ///< it reaches its bank
     uint32_t Plus;      ///< cycles from the line's coming to the answer
   };
-  /// What an MSHR holds.
+  /// What an MSHR holds, until another miss takes it.
   struct Mshr {
-    size_t Line = 0; ///< place in Tags
+    uint32_t Number = 0; ///< of the line
     std::vector<Merged> Waiting;
   };
   /// A bank works one request a cycle. Behind a miss that finds every MSHR
@@ -182,11 +178,17 @@ private:
   bool serve(const CacheRequest &R, std::optional<uint64_t> &Answer);
   /// The MSHR of a bank that is free first, as far as is known.
   uint32_t firstMshr(uint32_t Bank) const;
+  /// That of a line's note in Tags, which is one more than its number in the
+  /// bank.
+  uint32_t mshrOf(uint32_t Bank, uint32_t Note) const {
+    return Bank * Shape.Mshrs + Note - 1;
+  }
+  uint64_t readyAt(uint32_t Bank, uint32_t Number, uint32_t Note) const;
 
   CacheShape Shape;
   MemoryBelow &Below;
   CacheTags Tags;
-  std::vector<Line> Lines; ///< by place in Tags
+  Modulo OfBanks;
   std::vector<Bank> Banks;
   std::vector<uint64_t> MshrFreeAt; ///< by bank
   std::vector<Mshr> Mshrs;

@@ -117,7 +117,7 @@ private:
     return Address / TimingLineBytes % Shape.Banks;
   }
   void comesFromBelow(uint32_t Miss, uint64_t Then) {
-    FromBelow.push({std::max(Then, Now), Arrivals++, Miss});
+    FromBelow.push(std::max(Then, Now), Arrivals++, Miss);
   }
   bool fillBuffers(std::vector<Answer> &Answers);
   void answerPorts(std::vector<Answer> &Answers);

@@ -1,6 +1,5 @@
 #include "timing/memory/DramChannels.h"
 
-#include "timing/common/Picoseconds.h"
 #include "timing/common/Turn.h"
 #include "timing/memory/MemoryWatch.h"
 #include "vorion/support/Suggest.h"
@@ -74,7 +73,7 @@ DramChannels::DramChannels(const DramTiming &Params, uint32_t Mhz)
     : Setup(*setUpDram(Params)),
       TableFile(isTableFile(Params.Standard) ? Params.Standard : ""),
       Decode(Setup.Map, Setup.Table), Tick(uint64_t{Mhz} * Setup.Table.TickPs),
-      FrontTicks(Params.ControllerPs / 2 / Setup.Table.TickPs),
+      ByTick(Tick), FrontTicks(Params.ControllerPs / 2 / Setup.Table.TickPs),
       BackTicks(Params.ControllerPs / Setup.Table.TickPs - FrontTicks),
       NextEvent(Turn::Never) {
   const auto Make = pluggedPolicies().Dram;
@@ -96,8 +95,6 @@ void DramChannels::watch(const MemoryWatch *Observers) {
 
 /// What has been issued since the last time.
 void DramChannels::tellCommands() {
-  if (!Watch)
-    return;
   for (unsigned Number = 0; Number != Channels.size(); ++Number) {
     std::vector<dram::Issued> &Log = Channels[Number].Log;
     for (const dram::Issued &I : Log) {
@@ -112,14 +109,6 @@ void DramChannels::tellCommands() {
     }
     Log.clear();
   }
-}
-
-uint64_t DramChannels::cycleOf(uint64_t Ticks) const {
-  return quotientUp(Ticks * Tick, PsTimesMhz);
-}
-
-uint64_t DramChannels::tickOf(uint64_t Cycle) const {
-  return Cycle * PsTimesMhz / Tick;
 }
 
 std::optional<uint64_t> DramChannels::fetch(uint64_t Now, uint32_t Address,
@@ -168,14 +157,15 @@ void DramChannels::advance(uint64_t Until, std::vector<Fill> &Fills) {
       }
     std::erase_if(Replies, [](const dram::Reply &R) { return R.IsWrite; });
   }
-  tellCommands();
+  if (Watch)
+    tellCommands();
   NextEvent = First == dram::Never ? Turn::Never : cycleOf(First);
   std::ranges::sort(Replies, {}, [](const dram::Reply &R) {
     return std::pair(R.Decided, R.Id);
   });
   for (const dram::Reply &R : Replies)
-    Fills.push_back({static_cast<uint32_t>(R.Id % (uint64_t{1} << MissBits)),
-                     cycleOf(R.Done + BackTicks)});
+    Fills.emplace_back(static_cast<uint32_t>(R.Id % (uint64_t{1} << MissBits)),
+                       cycleOf(R.Done + BackTicks));
 }
 
 void DramChannels::idleUntil(uint64_t Until) {
@@ -185,7 +175,8 @@ void DramChannels::idleUntil(uint64_t Until) {
     if (C.NextEvent == dram::Never)
       C.Control.advance(AdvancedTo, Replies);
   assert(Replies.empty() && "an idle channel has no requests");
-  tellCommands();
+  if (Watch)
+    tellCommands();
 }
 
 DramTime DramChannels::time() const {

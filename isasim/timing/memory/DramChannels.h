@@ -2,6 +2,7 @@
 /// cycles of that cache become ticks of the device's clock and come back.
 #pragma once
 
+#include "timing/common/Picoseconds.h"
 #include "timing/dram/AddressMap.h"
 #include "timing/memory/Cache.h"
 
@@ -74,13 +75,18 @@ private:
   void submit(uint64_t Now, uint32_t Address, uint64_t Miss, bool IsWrite);
   /// The first cycle that does not begin before \p Tick, and the last tick
   /// that does not begin after \p Cycle.
-  uint64_t cycleOf(uint64_t Tick) const;
-  uint64_t tickOf(uint64_t Cycle) const;
+  uint64_t cycleOf(uint64_t Ticks) const {
+    return quotientUp(Ticks * Tick, PsTimesMhz);
+  }
+  uint64_t tickOf(uint64_t Cycle) const {
+    return ByTick.down(Cycle * PsTimesMhz);
+  }
 
   const DramSetup Setup;
   const std::string TableFile;
   const dram::AddressDecoder Decode;
   const uint64_t Tick; ///< ps times MHz of a tick, as PsTimesMhz of a cycle
+  const Divisor ByTick;
   /// Of the controller, in front of its queues and behind the device.
   const uint64_t FrontTicks, BackTicks;
   std::deque<Channel> Channels;

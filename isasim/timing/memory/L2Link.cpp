@@ -1,7 +1,5 @@
 #include "timing/memory/L2Link.h"
 
-#include "timing/common/Picoseconds.h"
-
 #include <algorithm>
 
 namespace vorion::isasim {
@@ -12,10 +10,21 @@ static uint64_t wholeCycles(uint64_t Ps, uint64_t Mhz) {
 }
 
 L2Link::L2Link(const TimingConfig &Params)
-    : ChipMhz(Params.ClockMhz), Mhz(l2Mhz(Params)),
-      HeaderBytes(Params.Link.HeaderBytes),
-      To{uint64_t{Params.Link.ToL2Ns} * 1000, Params.Link.ToL2Mbps},
-      From{uint64_t{Params.Link.FromL2Ns} * 1000, Params.Link.FromL2Mbps} {}
+    : ChipMhz(Params.ClockMhz), Mhz(l2Mhz(Params)), ByChipMhz(ChipMhz),
+      ByMhz(Mhz), To(uint64_t{Params.Link.ToL2Ns} * 1000, Params.Link.ToL2Mbps,
+                     Params.Link.HeaderBytes),
+      From(uint64_t{Params.Link.FromL2Ns} * 1000, Params.Link.FromL2Mbps,
+           Params.Link.HeaderBytes) {}
+
+L2Link::Direction::Direction(uint64_t LatencyIn, uint64_t Mbps,
+                             uint32_t HeaderBytes)
+    : Latency(LatencyIn) {
+  for (const bool HasData : {false, true}) {
+    const uint32_t Count = HeaderBytes + (HasData ? TimingLineBytes : 0);
+    Messages[HasData] = {Count,
+                         Mbps ? quotientUp(Count * PsTimesMhz, Mbps) : 0};
+  }
+}
 
 bool L2Link::exists(const TimingConfig &Params) {
   const LinkTiming &P = Params.Link;
@@ -23,25 +32,13 @@ bool L2Link::exists(const TimingConfig &Params) {
          P.ToL2Mbps || P.FromL2Mbps;
 }
 
-uint64_t L2Link::toChip(uint64_t L2Cycle) const {
-  return L2Cycle == Turn::Never ? L2Cycle : quotientUp(L2Cycle * ChipMhz, Mhz);
-}
-
-uint64_t L2Link::lastInL2(uint64_t Cycle) const {
-  return Cycle == Turn::Never ? Cycle : Cycle * Mhz / ChipMhz;
-}
-
-uint64_t L2Link::firstInL2(uint64_t Cycle) const {
-  return quotientUp(Cycle * Mhz, ChipMhz);
-}
-
-uint64_t L2Link::Direction::leave(uint64_t Now, uint32_t Count) {
-  const uint64_t Ps = Mbps ? quotientUp(Count * PsTimesMhz, Mbps) : 0;
+inline uint64_t L2Link::Direction::leave(uint64_t Now, bool HasData) {
+  const Message &M = Messages[HasData];
   if (Now > FreeAt)
     BusySince = FreeAt = Now;
-  Bytes += Count;
-  Busy += Ps;
-  FreeAt += Ps;
+  Bytes += M.Bytes;
+  Busy += M.Ps;
+  FreeAt += M.Ps;
   return FreeAt;
 }
 
@@ -50,16 +47,17 @@ uint64_t L2Link::Direction::busyUntil(uint64_t Now) const {
 }
 
 /// Direction::leave() of a direction, which is reported to observers.
-uint64_t L2Link::leave(bool IsToL2, uint64_t Now, uint32_t Count) {
+inline uint64_t L2Link::leave(bool IsToL2, uint64_t Now, bool HasData) {
   Direction &Way = IsToL2 ? To : From;
+  if (!Watch)
+    return Way.leave(Now, HasData);
   const uint64_t Begin = cycleOf(std::max(Now, Way.FreeAt), ChipMhz);
   const uint64_t BusyBefore = wholeCycles(Way.Busy, ChipMhz);
-  const uint64_t Left = Way.leave(Now, Count);
+  const uint64_t Left = Way.leave(Now, HasData);
   // Short messages have parts of a cycle, which add up.
   const uint64_t Cycles = wholeCycles(Way.Busy, ChipMhz) - BusyBefore;
-  if (Watch)
-    Watch->tell(
-        [&](TimeObserver &O) { O.linkBusy(IsToL2, {Begin, Begin + Cycles}); });
+  Watch->tell(
+      [&](TimeObserver &O) { O.linkBusy(IsToL2, {Begin, Begin + Cycles}); });
   return Left;
 }
 
@@ -82,21 +80,16 @@ LinkTime L2Link::time(uint64_t End) const {
 }
 
 L2Link::Sent L2Link::send(uint64_t Now, CacheOp Op) {
-  const uint32_t Data = Op == CacheOp::Read ? 0 : TimingLineBytes;
-  const uint64_t Left = leave(true, psOf(Now, ChipMhz), HeaderBytes + Data);
+  const uint64_t Left = leave(true, psOfChip(Now), Op != CacheOp::Read);
   return {cycleOf(Left, ChipMhz), cycleOf(Left + To.Latency, Mhz)};
 }
 
-void L2Link::give(const Answer &A) { Answers.push({A, Given++}); }
-
-Answer L2Link::takeAnswer() {
-  Answer A = Answers.front().What;
+void L2Link::takeAnswer(std::vector<Answer> &Taken) {
+  const Waiting &First = Answers.front();
+  const uint64_t Left = leave(false, psOfL2(First.At), true);
+  Taken.emplace_back(First.To, cycleOf(Left + From.Latency, ChipMhz),
+                     toChip(First.At));
   Answers.pop();
-  const uint64_t Left =
-      leave(false, psOf(A.At, Mhz), HeaderBytes + TimingLineBytes);
-  A.AnswerFrom = toChip(A.At);
-  A.At = cycleOf(Left + From.Latency, ChipMhz);
-  return A;
 }
 
 } // namespace vorion::isasim

@@ -2,10 +2,12 @@
 /// on another chip, as on the FPGA beside a prototype.
 #pragma once
 
+#include "timing/common/Picoseconds.h"
 #include "timing/common/Turn.h"
 #include "timing/dram/TimeQueue.h"
 #include "timing/memory/Cache.h"
 
+#include <array>
 #include <cstdint>
 
 namespace vorion::isasim {
@@ -27,11 +29,15 @@ public:
   /// \name Cycles of the L2 in cycles of the chip
   /// @{
   /// The first that does not begin before \p L2Cycle.
-  uint64_t toChip(uint64_t L2Cycle) const;
+  uint64_t toChip(uint64_t L2Cycle) const {
+    return L2Cycle == Turn::Never ? L2Cycle : ByMhz.up(L2Cycle * ChipMhz);
+  }
   /// The last that does not begin after \p Cycle, and the first that does not
   /// begin before it.
-  uint64_t lastInL2(uint64_t Cycle) const;
-  uint64_t firstInL2(uint64_t Cycle) const;
+  uint64_t lastInL2(uint64_t Cycle) const {
+    return Cycle == Turn::Never ? Cycle : ByChipMhz.down(Cycle * Mhz);
+  }
+  uint64_t firstInL2(uint64_t Cycle) const { return ByChipMhz.up(Cycle * Mhz); }
   /// @}
 
   struct Sent {
@@ -41,17 +47,17 @@ public:
   /// A request leaves at the chip's cycle \p Now, behind those before it.
   Sent send(uint64_t Now, CacheOp Op);
 
-  /// An answer, a line, waits at the L2 from the L2's cycle A.At on. Answers
+  /// An answer, a line, waits at the L2 from the L2's cycle \p At on. Answers
   /// leave in the order of that time, so that nobody knows yet when it comes.
-  void give(const Answer &A);
+  void give(const Ticket &Of, uint64_t At) { Answers.push(Of, At, Given++); }
   /// The L2's cycle in which the next answer leaves if nothing else comes;
   /// Turn::Never if none waits.
   uint64_t nextAnswer() const {
-    return Answers.empty() ? Turn::Never : Answers.front().What.At;
+    return Answers.empty() ? Turn::Never : Answers.front().At;
   }
-  /// Sends the answer of nextAnswer(); its time is the chip's cycle in which it
-  /// is there.
-  Answer takeAnswer();
+  /// Sends the answer of nextAnswer() and appends it; its time is the chip's
+  /// cycle in which it is there.
+  void takeAnswer(std::vector<Answer> &Taken);
 
   /// Notifies \p Observers from now on; null for none.
   void watch(const TimeWatch *Observers) { Watch = Observers; }
@@ -64,31 +70,46 @@ public:
 private:
   /// One way. Times are in ps.
   struct Direction {
-    uint64_t Latency, Mbps;
+    Direction(uint64_t LatencyIn, uint64_t Mbps, uint32_t HeaderBytes);
+    uint64_t Latency;
+    /// A message is a header, with a line if it carries data.
+    struct Message {
+      uint32_t Bytes;
+      uint64_t Ps;
+    };
+    std::array<Message, 2> Messages;
     uint64_t BusySince = 0; ///< without a gap until FreeAt
     uint64_t FreeAt = 0;
     uint64_t Bytes = 0;    ///< of the run
     uint64_t Busy = 0;     ///< since the machine was made, until FreeAt
     uint64_t BusyThen = 0; ///< likewise in cycles, until the run's begin
-    /// When a message of \p Count bytes has left that is there at \p Now.
-    uint64_t leave(uint64_t Now, uint32_t Count);
+    /// When a message that is there at \p Now has left.
+    uint64_t leave(uint64_t Now, bool HasData);
     /// Since the machine was made, until \p Now.
     uint64_t busyUntil(uint64_t Now) const;
   };
-  uint64_t leave(bool IsToL2, uint64_t Now, uint32_t Count);
+  uint64_t leave(bool IsToL2, uint64_t Now, bool HasData);
   struct Waiting {
-    Answer What;
+    Ticket To;
+    uint64_t At;
     uint64_t Number; ///< orders those of one time
   };
   struct IsBefore {
     bool operator()(const Waiting &A, const Waiting &B) const {
-      return A.What.At != B.What.At ? A.What.At < B.What.At
-                                    : A.Number < B.Number;
+      return A.At != B.At ? A.At < B.At : A.Number < B.Number;
     }
   };
 
+  /// Cycles of the chip and of the L2 in ps, and those that begin then.
+  uint64_t psOfChip(uint64_t Cycle) const {
+    return ByChipMhz.down(Cycle * PsTimesMhz);
+  }
+  uint64_t psOfL2(uint64_t Cycle) const {
+    return ByMhz.down(Cycle * PsTimesMhz);
+  }
+
   const uint64_t ChipMhz, Mhz;
-  const uint32_t HeaderBytes;
+  const Divisor ByChipMhz, ByMhz;
   Direction To, From;
   TimeQueue<Waiting, IsBefore> Answers;
   uint64_t Given = 0;

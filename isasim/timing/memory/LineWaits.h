@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace vorion::isasim {
@@ -34,10 +35,10 @@ public:
     return Sets[N].Tag;
   }
   /// Asks for a line of set \p N.
-  void ask(MemorySystem &Memory, unsigned N, CacheRequest R) {
+  void ask(MemorySystem &Memory, unsigned N, CacheRequest &&R) {
     Set &S = Sets[N];
     R.From = {Port.Unit, S.Tag};
-    if (const auto Then = Memory.access(Port, R))
+    if (const auto Then = Memory.access(Port, std::move(R)))
       S.come(*Then);
     else
       ++S.Open;
@@ -48,9 +49,20 @@ public:
   uint64_t readyAt(unsigned N) const {
     return Sets[N].Open ? Turn::Never : Sets[N].Last.At;
   }
+  /// The first of the first \p Count sets to be ready.
+  unsigned firstOf(unsigned Count) const {
+    unsigned First = 0;
+    uint64_t Earliest = readyAt(0);
+    for (unsigned N = 1; N < Count; ++N) {
+      const uint64_t Then = readyAt(N);
+      First = Then < Earliest ? N : First;
+      Earliest = std::min(Earliest, Then);
+    }
+    return First;
+  }
   /// Likewise, with how its last line came.
-  Arrival arrivalOf(unsigned N) const {
-    return Sets[N].Open ? Arrival{Turn::Never} : Sets[N].Last;
+  const Arrival &arrivalOf(unsigned N) const {
+    return Sets[N].Open ? Unknown : Sets[N].Last;
   }
   /// An answer of memory; returns the set that is known by it.
   std::optional<unsigned> answer(const Answer &A) {
@@ -68,6 +80,7 @@ public:
   static constexpr uint32_t TagMask = (1U << 30) - 1;
 
 private:
+  static constexpr Arrival Unknown{Turn::Never};
   struct Set {
     uint32_t Tag = 0; ///< the set's number, and how often it began
     uint32_t Open = 0;

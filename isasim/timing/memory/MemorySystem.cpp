@@ -44,7 +44,7 @@ uint32_t MemorySystem::writeCycles(const TimingConfig &Params) {
 }
 
 std::optional<Arrival> MemorySystem::access(const MemoryPort &Port,
-                                            CacheRequest R) {
+                                            CacheRequest &&R) {
   R.Port = Port.Port;
   if (KeepsWriters && R.Op != CacheOp::Read)
     Writers.written(R.Address,
@@ -54,17 +54,16 @@ std::optional<Arrival> MemorySystem::access(const MemoryPort &Port,
     return At ? std::optional(Arrival{*At}) : std::nullopt;
   }
   const L2Link::Sent Sent = Link.send(R.Now, R.Op);
-  CacheRequest There = R;
-  There.Now = Sent.There;
+  R.Now = Sent.There;
   if (R.Op == CacheOp::Write || R.Op == CacheOp::WriteWhole) {
     // The link has it: nobody waits for the L2.
-    There.From = There.Dequeued = {};
-    accessL2(Port.Cluster, There);
+    R.From = R.Dequeued = {};
+    accessL2(Port.Cluster, R);
     return Arrival{.At = Sent.Gone, .RequestUntil = Sent.Gone};
   }
-  There.From.RequestUntil = Link.toChip(Sent.There);
-  if (const auto At = accessL2(Port.Cluster, There))
-    Link.give({There.From, *At});
+  R.From.RequestUntil = Link.toChip(Sent.There);
+  if (const auto At = accessL2(Port.Cluster, R))
+    Link.give(R.From, *At);
   return std::nullopt;
 }
 
@@ -87,7 +86,7 @@ void MemorySystem::give(const Answer &A, std::vector<Answer> &Answers) {
   if (A.To.Unit != Ticket::Nobody && A.To.Unit & IsBehindLink)
     Answers.push_back({A.To, Link.toChip(A.At)});
   else
-    Link.give(A);
+    Link.give(A.To, A.At);
 }
 
 std::optional<uint64_t> MemorySystem::accessL2(unsigned Cluster,
@@ -122,7 +121,7 @@ void MemorySystem::advance(uint64_t Until, std::vector<Answer> &Answers) {
     const uint64_t Next = Link.nextAnswer();
     if (Next <= Limit && Next <= nextEventInL2()) {
       // Nothing that comes later is ready before it.
-      Answers.push_back(Link.takeAnswer());
+      Link.takeAnswer(Answers);
       return;
     }
     if (nextEventInL2() > Limit)

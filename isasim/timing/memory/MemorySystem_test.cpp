@@ -32,7 +32,7 @@ protected:
     for (CacheRequest R : Requests) {
       GoOn(R.Now);
       R.From = {0, Asked++};
-      if (const auto Known = M.access({}, R))
+      if (const auto Known = M.access({}, CacheRequest(R)))
         Then[R.From.Tag] = Known->At;
     }
     GoOn(Turn::Never - 1);
