@@ -82,7 +82,7 @@ def pictures(bench, args):
                 for path in (p for p in SUPPORTS if support in SUPPORTS[p]):
                     result, picture, pairs = bench.run(
                         f"{name}-{path}", inputs, "splat", "render", *source, "--support", support, "--path", path, "-o", "{out}.npz",
-                        "--json", "{out}.json", "--dump-pairs", "{out}-pairs.npz", keep=(".npz", "-pairs.npz"))
+                        "--json", "{out}.json", "--pairs", "{out}-pairs.npz", keep=(".npz", "-pairs.npz"))
                     tile = "64" if path == "raster" else "16"
                     _, wanted = bench.run(f"{name}-pairs{tile}", inputs, "splat-reference", *source, "--support", support, "--precision",
                                           "f32", "--tile", tile, "--pairs", "{out}.npz", keep=(".npz",))
@@ -206,7 +206,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mode", choices=("pictures", "fixtures", "gradients"))
     parser.add_argument("--data", default=os.path.join(root, "..", "shared", "data"))
-    parser.add_argument("--out", default=os.path.join(root, "build", "accuracy"))
+    parser.add_argument("-o", default=os.path.join(root, "build", "accuracy"))
     parser.add_argument("--scenes", default=",".join(SCENES))
     parser.add_argument("--views", default=",".join(VIEWS))
     parser.add_argument("--hard", action="store_true", help="fixtures, gradients: the hard ones too")

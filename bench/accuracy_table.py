@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints what `splat accuracy` measured as Markdown: a row a setting, over all views.
 
-usage: accuracy_table.py FOLDER/accuracy.json [--products N] [--at-least DB]
+usage: accuracy_table.py FOLDER/accuracy.json [--products N] [--min-db DB]
 
 PSNR and SSIM are the worst view's, the largest error and the share of pixels off likewise; times are sums over the views, against the
 default's. After the default and the single choices come the N combinations that are fastest at equal area and keep DB on every view.
@@ -22,7 +22,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file")
     parser.add_argument("--products", type=int, default=0, help="how many combinations (default: %(default)s)")
-    parser.add_argument("--at-least", type=float, default=50, help="the least PSNR of a combination, dB (default: %(default)s)")
+    parser.add_argument("--min-db", type=float, default=50, help="the least PSNR of a combination, dB (default: %(default)s)")
     args = parser.parse_args()
     with open(args.file, encoding="utf-8") as f:
         points = json.load(f)["points"]
@@ -42,7 +42,7 @@ def main():
     energy = ("energy of the chip | ", "--:|") if has_energy else ("", "")
     print(f"| setting | PSNR, dB | SSIM | largest error | pixels off, % | cycles | at equal area | kernels only | {energy[0]}lane area |")
     print(f"|---|--:|--:|--:|--:|--:|--:|--:|{energy[1]}--:|")
-    kept = [s for s in settings if "," in s and all(p["errors"]["psnr_db"] is None or p["errors"]["psnr_db"] >= args.at_least for p in settings[s])]
+    kept = [s for s in settings if "," in s and all(p["errors"]["psnr_db"] is None or p["errors"]["psnr_db"] >= args.min_db for p in settings[s])]
     fastest = sorted(kept, key=lambda s: total(s, "equal_area_cycles"))[:args.products]
     for setting in [s for s in settings if "," not in s] + fastest:
         times = {axis: (f"{total(setting, axis):,.0f}" if total(setting, axis) and setting == "default"

@@ -20,7 +20,7 @@ WIDTHS = (480, 960, 1920, 3840)
 
 def point(scene, view, width):
     """An analysis of a view."""
-    command = ("splat", "analyze", "{scene}", "--cameras", "{cameras}", "--view", view, "--width", str(width), "--json", "{out}.json")
+    command = ("splat", "analyze", "{scene}", "--cameras", "{cameras}", "--view", view, "--size", str(width), "--json", "{out}.json")
     return study.Point(f"{scene.name}-{view}-{width}", command, {"scene": scene.path, "cameras": scene.cameras})
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What ideas for the rasterizer would save at most, if they cost nothing: docs/rtl.md, "Ideas, if they were free".
 
-usage: bench/raster_bounds.py FILE...   (each what `isasim-raster-tiles 10 raster-tiles.bin` wrote of a frame)
+usage: bench/raster_bounds.py FILE...   (each what `isasim-raster-tiles raster-tiles.bin` wrote of a frame)
 Prints a table, a column a file, in percent of the cycles of all tiles or of the frame's blending."""
 
 import heapq

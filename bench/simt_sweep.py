@@ -28,7 +28,7 @@ def kernel(report, name):
 def main():
     args = frames.parse_arguments(__doc__.splitlines()[0])
 
-    kernels = {(tile, group): ["--path", "simt", "--simt-tile", str(tile), "--simt-group", str(group)]
+    kernels = {(tile, group): ["--path", "simt", "--tile", str(tile), "--simt-group", str(group)]
                for tile in TILES for group in GROUPS}
     found = frames.render(args, {"raster": ["--path", "raster"],
                                  **{f"simt-{tile}-{group}": options for (tile, group), options in kernels.items()}})

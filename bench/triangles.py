@@ -171,7 +171,7 @@ def accuracy(width):
                 camera = next(c for c in json.load(file) if c["img_name"] == view)
             ball, out = os.path.join(folder, f"{name}.obj"), os.path.join(folder, name)
             write_ball(ball, camera, away, "texture.png")
-            subprocess.run(["splat", "accuracy", of.path, "--cameras", of.cameras, "--view", view, "--mesh", ball, "--out", out,
+            subprocess.run(["splat", "accuracy", of.path, "--cameras", of.cameras, "--view", view, "--mesh", ball, "-o", out,
                             "--knobs", KNOBS, "--products", "0", "--no-host"], check=True, cwd=scenes.ROOT, stdout=sys.stderr)
             print(f"\n{name}, {view}, {width} pixels wide:\n", flush=True)
             subprocess.run([sys.executable, os.path.join(scenes.ROOT, "bench/accuracy_table.py"), out + "/accuracy.json"], check=True)

@@ -4,7 +4,7 @@
 # already, made from the same, is not measured again, so a broken sweep goes on where
 # it stopped.
 # usage: scripts/sweep.sh [--jobs N] [--slurm] accuracy|explore ARGUMENTS
-#        scripts/sweep.sh --jobs 8 accuracy scene.ply --cameras cameras.json --out FOLDER
+#        scripts/sweep.sh --jobs 8 accuracy scene.ply --cameras cameras.json -o FOLDER
 # With --slurm the folder must be one that all nodes see. --jobs is how many points are
 # measured at the same time; default: the number of processors.
 source "$(dirname "$0")/lib.sh"

@@ -454,7 +454,7 @@ Expected<int> run(Options O) {
   if (auto Ok = claimOutputs({{"-o", O.Output}, {"the page's data", Script}},
                              {{"the kernel", O.Source},
                               {"--profile", O.Profile},
-                              {"--launch", O.Launch}});
+                              {"--args", O.Launch}});
       !Ok)
     return Ok.error();
   const auto Work = TemporaryFolder::make("vorion-explorer");
@@ -498,7 +498,7 @@ void declare(CLI::App &App, Options &O) {
                            "Cycles or executions of a run of this program: "
                            "vorion-sim --profile=FILE.json"),
             {".json"});
-  takesFile(App.add_option("--launch", O.Launch,
+  takesFile(App.add_option("--args", O.Launch,
                            "Run the kernel with the clock each time: kernel, "
                            "global, local and args as of vorion-sim --args"),
             {".json"})
@@ -506,7 +506,7 @@ void declare(CLI::App &App, Options &O) {
   App.add_option("--set", O.Sets, "Configuration keys of the machine that runs")
       ->option_text("KEY=VALUE,...")
       ->allow_extra_args(false)
-      ->needs("--launch");
+      ->needs("--args");
   struct Passed {
     const char *Option, *Value, *Help;
   };

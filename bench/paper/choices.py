@@ -13,7 +13,7 @@ CHOICES = tuple((tile, group) for tile in TILES for group in GROUPS)
 
 
 def simt(scene, view, machine, choice, clock=0):
-    return Run(scene, view, machine, ("--path", "simt", "--simt-tile", str(choice[0]), "--simt-group", str(choice[1])),
+    return Run(scene, view, machine, ("--path", "simt", "--tile", str(choice[0]), "--simt-group", str(choice[1])),
                clock)
 
 

@@ -8,7 +8,7 @@ from writing import chart, mega, table, terms
 
 TITLE = "Against kernels alone"
 # As INRIA's program does it: its tiles, a work-item a pixel, its reach, and no test that spares a pixel the exponential.
-OFFICIAL = ("--path", "simt", "--support", "official16", "--simt-tile", "16", "--simt-group", "256")
+OFFICIAL = ("--path", "simt", "--support", "official16", "--tile", "16", "--simt-group", "256")
 BASELINES = {"fastest": "our fastest kernels", "official": "the official algorithm, step by step"}
 
 

@@ -214,7 +214,7 @@ def raster(state, scale, machine, clock=0):
 
 
 def simt(state, scale, machine, choice):
-    return Timed(state, scale, machine, ("--path", "simt", "--simt-tile", str(choice[0]), "--simt-group", str(choice[1])))
+    return Timed(state, scale, machine, ("--path", "simt", "--tile", str(choice[0]), "--simt-group", str(choice[1])))
 
 
 def summed(state, scale, machine, sums, choice):

@@ -334,9 +334,9 @@ int writeBackward(uint32_t Count) {
 }
 
 struct Arguments {
-  uint32_t Latency = 0;
+  uint32_t Latency = 10;
   std::string File;
-  uint64_t Every = 1, Random = 0, Seed = 1;
+  uint64_t Random = 0, Seed = 1;
   uint32_t Backward = 0;
 };
 
@@ -347,10 +347,7 @@ std::vector<RasterTile> readTiles(const Arguments &A) {
   std::mt19937_64 Engine(A.Seed);
   RasterTile T;
   for (uint64_t N = 0; File && T.read(File); ++N) {
-    if (A.Random == 0) {
-      if (N % A.Every == 0)
-        Chosen.push_back(T);
-    } else if (Chosen.size() < A.Random) {
+    if (A.Random == 0 || Chosen.size() < A.Random) {
       Chosen.push_back(T);
       // Each of those so far with the same odds.
     } else if (const uint64_t Place = Engine() % (N + 1); Place < A.Random) {
@@ -387,13 +384,12 @@ int main(int Count, char **Values) {
                "isasim-raster-tiles");
   App.footer(std::string(ExitCodeHelp));
   Arguments A;
-  App.add_option("cycles", A.Latency, "Memory latency in cycles")->required();
   takesFile(App.add_option("file", A.File,
                            "Output of the plugin isasim-tile-writer (default: "
                            "the tiles of the tests)"));
-  App.add_option("every", A.Every,
-                 "Write one of N tiles of the file (default 1)")
-      ->check(isBetween(uint64_t{1}, uint64_t{1} << 32));
+  App.add_option("--latency", A.Latency,
+                 "Memory latency in cycles (default 10)")
+      ->check(isBetween(uint64_t{0}, uint64_t{1} << 20));
   App.add_option(
          "--random", A.Random,
          "Write N tiles of the file, sampled at random; all if it has fewer")

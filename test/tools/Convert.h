@@ -33,7 +33,7 @@ splat::Camera cameraOf(const Fixture &F);
 /// `mask_order`, in the precision of the picture.
 template <typename Real> splat::Npz toNpz(const reference::Picture<Real> &P);
 
-/// The pairs as `splat render --dump-pairs` writes them: `tile`, `depth_bits`
+/// The pairs as `splat render --pairs` writes them: `tile`, `depth_bits`
 /// and `index`, sorted by tile and depth.
 template <typename Real>
 splat::Npz toNpz(const reference::TileLists &T,

@@ -54,7 +54,7 @@ Expected<Success> readLayers(const std::string &Where, splat::Npz &Seen,
         return N >= static_cast<int64_t>(M.triangles());
       }))
     return Error{Where, "no planes of layers, expected what splat render "
-                        "--dump-visible wrote for this view and mesh"};
+                        "--visible wrote for this view and mesh"};
   To.Layers.resize(Pixels);
   for (std::size_t I = 0; I < Depths.size(); ++I)
     if (Triangles[I] >= 0)
@@ -84,7 +84,7 @@ Expected<reference::MeshView> readView(const std::string &Visible,
     return Error{
         Visible,
         fmt::format("no depth and triangle of {} x {} pixels, expected "
-                    "what splat render --dump-visible wrote for this "
+                    "what splat render --visible wrote for this "
                     "view and mesh",
                     C.Width, C.Height)};
   if (Seen->contains("layer_depth"))
@@ -274,7 +274,7 @@ int main(int Count, char **Values) {
   App.add_option("--mesh", A.Mesh,
                  "With f64: a mesh with the Gaussians (docs/meshes.md)");
   App.add_option("--visible", A.Visible,
-                 "Its depths and triangles, from splat render --dump-visible "
+                 "Its depths and triangles, from splat render --visible "
                  "(default: computed in fp64; pixels within half a sub-pixel "
                  "of an edge are doubtful)");
   App.add_option("--light", A.Light, "Direction x,y,z of a light on the mesh")

@@ -66,7 +66,7 @@ Expected<ProcessEnd> run(const char *What, std::vector<std::string> Words,
 
 unsigned tilesOf(const Camera &View) {
   const auto Along = [](int Pixels) {
-    const unsigned Side = RenderOptions().RasterTile;
+    const unsigned Side = RenderOptions().tileSize();
     return (static_cast<unsigned>(Pixels) + Side - 1) / Side;
   };
   return Along(View.Width) * Along(View.Height);
@@ -115,10 +115,11 @@ Expected<RtlRun> runRtl(const SweepPlan &P, const Camera &View,
   Machine.set("VORION_RASTER_TILES", File("all"));
   if (auto Drawn = runSplat(Words, Machine, File("render.log")); !Drawn)
     return Error{"", "not run: " + Drawn.error().What};
-  auto Drawn = run("selecting tiles",
-                   {Found->Tiles, fmt::format("{}", Latency), File("all"),
-                    "--random", fmt::format("{}", DrawnTiles)},
-                   File("tiles"), File("tiles.log"));
+  auto Drawn =
+      run("selecting tiles",
+          {Found->Tiles, File("all"), "--latency", fmt::format("{}", Latency),
+           "--random", fmt::format("{}", DrawnTiles)},
+          File("tiles"), File("tiles.log"));
   fs::remove(File("all"), Failed); // large
   if (!Drawn)
     return Drawn.error();

@@ -90,13 +90,14 @@ std::vector<std::string> knobNames() {
   return Names;
 }
 
-/// What pictures with \p Surface, which may be null, lack for knob \p Id; empty
-/// if nothing.
-static std::string_view missing(KnobId Id, const Mesh *Surface) {
+/// What pictures of knobsNamed() lack for knob \p Id; empty if nothing.
+static std::string_view missing(KnobId Id, const Mesh *Surface, bool Parallel) {
   switch (Id) {
   case KnobId::SubpixelBits:
-  case KnobId::MeshDepth:
     return Surface ? "" : "a mesh";
+  case KnobId::MeshDepth:
+    // Integer depths fall with 1/z.
+    return !Surface ? "a mesh" : Parallel ? "no orthographic camera" : "";
   case KnobId::FilterBits:
     return Surface && Surface->hasTextures() ? "" : "a mesh with textures";
   case KnobId::ZTiles:
@@ -109,7 +110,7 @@ static std::string_view missing(KnobId Id, const Mesh *Surface) {
 }
 
 Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names,
-                                       const Mesh *Surface) {
+                                       const Mesh *Surface, bool Parallel) {
   for (const std::string &Name : Names) {
     const Knob *K = findIn(allKnobs(), Name);
     if (!K)
@@ -119,13 +120,13 @@ Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names,
                       Name, fmt::join(knobNames(), ", "),
                       didYouMean(Name, knobNames())),
           ExitCode::Usage};
-    if (const auto Lacks = missing(K->Id, Surface); !Lacks.empty())
+    if (const auto Lacks = missing(K->Id, Surface, Parallel); !Lacks.empty())
       return Error{"", fmt::format("--knobs {}: expected {}", Name, Lacks),
                    ExitCode::Usage};
   }
   std::vector<Knob> Found;
   for (const Knob &K : allKnobs())
-    if (Names.empty() ? missing(K.Id, Surface).empty()
+    if (Names.empty() ? missing(K.Id, Surface, Parallel).empty()
                       : std::ranges::find(Names, K.Name) != Names.end())
       Found.push_back(K);
   return Found;

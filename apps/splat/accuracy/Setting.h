@@ -56,10 +56,12 @@ const Knob &knob(KnobId Id);
 std::vector<std::string> knobNames();
 
 /// The knobs \p Names, in the order of allKnobs(), for pictures with \p
-/// Surface, which may be null; for an empty list all that apply to these.
-/// Error: a knob is unknown or does not apply.
+/// Surface, which may be null, \p Parallel if a camera is orthographic; for an
+/// empty list all that apply to these. Error: a knob is unknown or does not
+/// apply.
 Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names,
-                                       const Mesh *Surface = nullptr);
+                                       const Mesh *Surface = nullptr,
+                                       bool Parallel = false);
 
 /// A knob with a value other than its default.
 struct Choice {

@@ -71,6 +71,10 @@ TEST(Setting, KnobsOfAMeshNeedOne) {
   EXPECT_TRUE(Has(&Plain, KnobId::SubpixelBits));
   EXPECT_TRUE(Has(&Plain, KnobId::ZTiles));
   EXPECT_FALSE(Has(&Plain, KnobId::FilterBits));
+  const auto Parallel = knobsNamed({}, &Plain, true);
+  EXPECT_EQ(std::ranges::count(*Parallel, KnobId::MeshDepth, &Knob::Id), 0);
+  EXPECT_EQ(knobsNamed({"mesh-depth"}, &Plain, true).error().What,
+            "--knobs mesh-depth: expected no orthographic camera");
   Mesh Glass;
   Glass.TextureCoordinates.resize(6);
   Glass.Materials.emplace_back().Alpha = AlphaMode::Blend;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -182,6 +183,13 @@ Camera resized(Camera C, int Width, int Height) {
   C.Width = Width;
   C.Height = Height;
   return C;
+}
+
+Camera resized(Camera C, int Width) {
+  const double Height = static_cast<double>(C.Height) * Width / C.Width;
+  return resized(
+      std::move(C), Width,
+      std::clamp(static_cast<int>(std::lround(Height)), 1, MaxImageSize));
 }
 
 } // namespace vorion::splat

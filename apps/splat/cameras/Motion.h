@@ -35,4 +35,7 @@ std::vector<Camera> alongPath(const std::vector<Camera> &Keys, int Count);
 /// centre of the picture does not change.
 Camera resized(Camera C, int Width, int Height);
 
+/// The same in the aspect ratio of \p C.
+Camera resized(Camera C, int Width);
+
 } // namespace vorion::splat

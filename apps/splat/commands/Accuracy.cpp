@@ -27,7 +27,6 @@
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -48,25 +47,12 @@ struct AccuracyArguments {
   CameraArguments Cameras;
   MeshArguments Mesh;
   StudyOptions Study;
-  std::string AtLeast = "50dB";
+  double MinDb = 50;
   std::vector<std::string> Check, Knobs;
   unsigned Products = 64, ThumbWidth = 240;
   bool NoCores = false, Energy = false, NoHost = false;
   TrainSweepPlan Train; ///< where a capture is given
 };
-
-/// "50dB" or "50".
-Expected<double> parseDecibels(std::string_view Text) {
-  double Value = 0;
-  const auto [End, Status] =
-      std::from_chars(Text.data(), Text.data() + Text.size(), Value);
-  const std::string_view Rest(End, Text.data() + Text.size());
-  if (Status != std::errc() || !std::isfinite(Value) ||
-      (!Rest.empty() && Rest != "dB"))
-    return usage(
-        fmt::format("--at-least {}: expected decibels, as 50dB", Text));
-  return Value;
-}
 
 /// Whether the views are in no file yet.
 bool hasOwnCameras(const AccuracyArguments &A) {
@@ -162,7 +148,10 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
       fmt::format("{}", fmt::join(P.CommonArguments, " "));
   if (auto Loaded = loadMesh(A, P); !Loaded)
     return Loaded.error();
-  auto Knobs = knobsNamed(A.Knobs, P.Surface.get());
+  auto Knobs = knobsNamed(A.Knobs, P.Surface.get(),
+                          std::ranges::any_of(P.Views, [](const Camera &View) {
+                            return View.Optics.Model->IsParallel;
+                          }));
   if (!Knobs)
     return Knobs.error();
   P.Knobs = std::move(*Knobs);
@@ -424,9 +413,6 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   }
   if (A.Scene.Path.empty())
     return usage("no input, expected a scene or --train CAPTURE");
-  const auto Floor = parseDecibels(A.AtLeast);
-  if (!Floor)
-    return Floor.error();
   const auto P = planOf(A, Machine);
   if (!P)
     return P.error();
@@ -435,13 +421,13 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
     return V.error();
   PointStore Kept = storeOf(*P, logStudy);
   StudySteps Steps;
-  Steps.Round = [&] { return roundOf(A, *P, Kept, *V, *Floor); };
+  Steps.Round = [&] { return roundOf(A, *P, Kept, *V, A.MinDb); };
   Steps.Named = [&P](const std::vector<std::string> &Names) {
     return named(*P, Names);
   };
   if (hasOwnCameras(A))
     Steps.Begin = [&] { return writeCameras(ownCameras(A), P->Views); };
-  Steps.End = [&] { return finish(A, *P, Kept, *V, *Floor); };
+  Steps.End = [&] { return finish(A, *P, Kept, *V, A.MinDb); };
   return runStudy(A.Study, Kept, Steps, logStudy);
 }
 
@@ -475,13 +461,14 @@ Runner addAccuracy(CLI::App &App) {
       knobNames())
       ->delimiter(',')
       ->option_text("KNOB,...");
-  App.add_option("--at-least", A->AtLeast,
+  App.add_option("--min-db", A->MinDb,
                  "Minimum PSNR of the recommended setting on every view that "
-                 "is used for choosing (default 50dB)")
-      ->option_text("DECIBELS");
+                 "is used for choosing (default 50)")
+      ->check(isBetween(-1000.0, 1000.0));
   App.add_option("--products", A->Products,
                  "Maximum number of combinations of the Pareto fronts' knobs "
                  "(default 64)")
+      ->check(isBetween(0U, 1000000U))
       ->option_text("N");
   App.add_flag("--no-cores", A->NoCores, "Skip the simt path");
   App.add_flag("--no-host", A->NoHost,
@@ -492,7 +479,7 @@ Runner addAccuracy(CLI::App &App) {
       ->option_text("N");
   addTrainOptions(App, A->Train, optionsFrom(App, First));
   return [A](const DeviceOptions &Machine) {
-    nameOutput("--out", A->Study.Folder,
+    nameOutput("-o", A->Study.Folder,
                A->Train.Capture.empty() ? A->Scene.Path : A->Train.Capture,
                "-accuracy");
     auto Done = run(*A, Machine);

@@ -41,7 +41,6 @@ struct AnalyzeArguments {
   CameraArguments Cameras;
   std::string View, OrderBeside, JsonFile;
   PageFiles Page;
-  int Width = 0; ///< of the picture, px; 0: the view's
   Rules Convention = Rules::Inria;
   Support Reach = Support::Square3;
   reference::Options Options;
@@ -267,16 +266,6 @@ std::string pageOf(const AnalyzeArguments &A, const InputHashes &Hashes,
   return verdictPageOf(Page);
 }
 
-/// The same view in another resolution.
-void resize(Camera &C, int Width) {
-  const double Scale = static_cast<double>(Width) / C.Width;
-  C.Height = std::clamp(static_cast<int>(std::lround(C.Height * Scale)), 1,
-                        MaxImageSize);
-  C.Width = Width;
-  for (double *Length : {&C.Fx, &C.Fy, &C.Cx, &C.Cy})
-    *Length *= Scale;
-}
-
 Expected<Success> run(AnalyzeArguments A) {
   for (const auto &Checked : {checkJsonName(A.JsonFile), checkPage(A.Page)})
     if (!Checked)
@@ -292,9 +281,7 @@ Expected<Success> run(AnalyzeArguments A) {
   const auto Cameras = camerasOf(A, *File);
   if (!Cameras)
     return Cameras.error();
-  Camera C = Cameras->View;
-  if (A.Width != 0)
-    resize(C, A.Width);
+  const Camera &C = Cameras->View;
   A.Options.Rule = toReference(A.Convention);
   A.Options.Reach = toReference(A.Reach);
   const Scene &S = File->Gaussians;
@@ -336,10 +323,7 @@ Runner addAnalyze(CLI::App &App) {
                            "Count the Gaussians of each pixel whose blend "
                            "order differs in this view's order, and in the "
                            "order along the pixel's ray (docs/numerics.md)"));
-  App.add_option(
-         "--width", A->Width,
-         "Width in pixels; the aspect ratio is preserved (default: the view's)")
-      ->check(isBetween(1, MaxImageSize));
+  addSizeOption(App, A->Cameras);
   writesFile(App.add_option("--json", A->JsonFile, "Write all counts"),
              {".json"});
   addPageOptions(App, A->Page, "Write a page with charts of the counts");

@@ -7,6 +7,7 @@
 #include "picture/SceneUnit.h"
 #include "vorion/support/CommandLine.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <optional>
@@ -15,15 +16,16 @@
 namespace vorion::splat {
 namespace {
 
+/// Width and height; the height is 0 if only the width is given.
 Expected<std::pair<int, int>> parseSize(const std::string &Text) {
-  int Width = 0, Height = 0, End = 0;
-  const int Read =
-      std::sscanf(Text.c_str(), "%5dx%5d%n", &Width, &Height, &End);
+  int Width = 0, Height = 0, End = 0, Whole = 0;
+  static_cast<void>(
+      std::sscanf(Text.c_str(), "%5d%nx%5d%n", &Width, &End, &Height, &Whole));
   const auto Fits = [](int Side) { return Side >= 1 && Side <= MaxImageSize; };
-  if (Read != 2 || static_cast<std::size_t>(End) != Text.size() ||
-      !Fits(Width) || !Fits(Height))
-    return usage(fmt::format("--size {}: expected WIDTHxHEIGHT of 1 to {} "
-                             "pixels each",
+  if (static_cast<std::size_t>(Whole != 0 ? Whole : End) != Text.size() ||
+      !Fits(Width) || (Whole != 0 && !Fits(Height)))
+    return usage(fmt::format("--size {}: expected WIDTH or WIDTHxHEIGHT of 1 "
+                             "to {} pixels each",
                              Text, MaxImageSize));
   return std::pair(Width, Height);
 }
@@ -79,11 +81,7 @@ void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
          "(default: with the undistorted cameras that training uses)")
       ->needs("--cameras");
   if (Several) {
-    App.add_option("--size", A.Size,
-                   fmt::format("Resolution, at the cameras' horizontal field "
-                               "of view (default: the cameras', or {})",
-                               DefaultSize))
-        ->option_text("WIDTHxHEIGHT");
+    addSizeOption(App, A);
     App.add_option(
            "--orbit", A.Orbit,
            "Render N views on an orbit, from the first view on, around the "
@@ -104,6 +102,16 @@ void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
       ->check(isOneOf({"x", "-x", "y", "-y", "z", "-z"}));
 }
 
+void addSizeOption(CLI::App &App, CameraArguments &A) {
+  const HelpGroup Group(App, "Cameras");
+  App.add_option("--size", A.Size,
+                 fmt::format("Resolution, at the cameras' horizontal field of "
+                             "view; a WIDTH alone keeps the aspect ratio "
+                             "(default: the cameras', or {})",
+                             DefaultSize))
+      ->option_text("WIDTH[xHEIGHT]");
+}
+
 Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
                                          const SceneFile &S) {
   const auto Size = parseSize(A.Size.empty() ? DefaultSize : A.Size);
@@ -115,7 +123,9 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
       return usage("--view names a camera, expected --cameras");
     // The farther near plane of the two rules.
     Cameras = {goodView(S.Gaussians, focusOf(S, parseUp(A.Up)), Size->first,
-                        Size->second, nearLimit(Rules::Inria))};
+                        Size->second != 0 ? Size->second
+                                          : std::max(1, Size->first * 9 / 16),
+                        nearLimit(Rules::Inria))};
   } else {
     auto Read = readCameraFile(A.File, A.Distorted ? LensOf::Photograph
                                                    : LensOf::Undistorted);
@@ -124,7 +134,8 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
     Cameras = std::move(Read->Cameras);
     if (!A.Size.empty())
       for (Camera &C : Cameras)
-        C = resized(std::move(C), Size->first, Size->second);
+        C = Size->second != 0 ? resized(std::move(C), Size->first, Size->second)
+                              : resized(std::move(C), Size->first);
   }
   if (A.Orbit == 0 && A.Frames == 0)
     return Cameras;

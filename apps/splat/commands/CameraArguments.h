@@ -18,12 +18,12 @@ struct CameraArguments {
   std::vector<std::string> Views; ///< empty: the first, or all views of a
                                   ///< motion
   int Orbit = 0, Frames = 0;      ///< number of views of a motion, 0 for none
-  std::string Size;               ///< WIDTHxHEIGHT; empty: that of the cameras,
-                                  ///< or DefaultSize
-  bool Distorted = false;         ///< with the lens distortion of the
-                                  ///< photographs
-  std::string Up;                 ///< an axis such as -y; empty: estimated from
-                                  ///< cameras or scene
+  std::string Size;       ///< WIDTH[xHEIGHT]; empty: that of the cameras,
+                          ///< or DefaultSize
+  bool Distorted = false; ///< with the lens distortion of the
+                          ///< photographs
+  std::string Up;         ///< an axis such as -y; empty: estimated from
+                          ///< cameras or scene
 
   /// Whether one picture is requested; "all" may also be one picture.
   bool isOne() const {
@@ -37,6 +37,9 @@ inline constexpr const char *DefaultSize = "640x360";
 /// Declares --cameras and --up, and if \p Several also --size, --orbit and
 /// --frames. The caller declares --view. \p A must outlive the parsing.
 void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several);
+
+/// Declares --size.
+void addSizeOption(CLI::App &App, CameraArguments &A);
 
 /// The cameras of \p A that --view selects. Without --cameras, an automatic
 /// view of \p S.

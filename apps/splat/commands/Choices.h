@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -45,15 +46,16 @@ void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
 }
 
 /// An option whose value is one of the numbers \p Choices; \p Value must
-/// outlive the parsing.
-inline void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
-                    const std::vector<unsigned> &Choices,
-                    const std::string &Help) {
+/// outlive the parsing. \p Default is for the help.
+template <typename Number>
+void addSize(CLI::App &App, const std::string &Flag, Number &Value,
+             const std::vector<unsigned> &Choices, const std::string &Help,
+             std::string_view Default) {
   std::vector<std::string> Names;
   Names.reserve(Choices.size());
   for (const unsigned Choice : Choices)
     Names.push_back(std::to_string(Choice));
-  App.add_option(Flag, Value, fmt::format("{} (default {})", Help, Value))
+  App.add_option(Flag, Value, fmt::format("{} (default {})", Help, Default))
       ->option_text(fmt::format("{}", fmt::join(Names, "|")))
       ->check(isOneOf(std::move(Names)));
 }

@@ -33,7 +33,7 @@ Expected<nlohmann::ordered_json> comparedFile(const std::string &File);
 /// returned after writing.
 Expected<Success> comparePictures(const CompareArguments &A);
 
-/// Compares the pairs of two files of `--dump-pairs`, including their order. A
+/// Compares the pairs of two files of `--pairs`, including their order. A
 /// difference is an Error (GuestFailed) with the first position that differs,
 /// returned after the report is written.
 Expected<Success> comparePairs(const CompareArguments &A);

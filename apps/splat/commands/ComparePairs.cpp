@@ -39,8 +39,7 @@ Expected<Npz> readPairs(const std::string &Path) {
     if (!Found || Found->Type != "i4")
       return Error{
           Path,
-          fmt::format("no int32 array {}, expected a file of --dump-pairs",
-                      Name)};
+          fmt::format("no int32 array {}, expected a file of --pairs", Name)};
     auto Array = File->read(Name);
     if (!Array)
       return Array.error();

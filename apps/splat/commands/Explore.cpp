@@ -327,7 +327,7 @@ Runner addExplore(CLI::App &App) {
       ->option_text("N");
   addWorkloadOptions(App, A->Tried);
   return [A](const DeviceOptions &Machine) {
-    nameOutput("--out", A->Study.Folder, A->Tried.input(), "-explore");
+    nameOutput("-o", A->Study.Folder, A->Tried.input(), "-explore");
     auto Done = run(*A, Machine);
     return Done ? writeStudyFigures(A->Study) : Done;
   };

@@ -43,8 +43,11 @@ struct ComputingOptions {
   explicit ComputingOptions(Work W) {
     if (W == Work::Frames)
       addDrawOptions(App, Draw);
-    else
+    else {
       addTrainPathOptions(App, Train);
+      // A space's tiles are those of frames: iterations have other sizes.
+      App.remove_option(App.get_option("--tile"));
+    }
   }
   /// Those that take a value, as help has them.
   std::vector<std::string> names() const {

@@ -30,8 +30,8 @@ void addSceneAndViews(CLI::App &App, SceneArguments &Scene,
   addSceneOptions(App, Scene);
   addCameraOptions(App, Cameras, /*Several=*/true);
   const HelpGroup Group(App, "Cameras");
-  takesView(App.add_option("--view,--views", Cameras.Views,
-                           "Views to render (default: all)"))
+  takesView(
+      App.add_option("--view", Cameras.Views, "Views to render (default: all)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
 }

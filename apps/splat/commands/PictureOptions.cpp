@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace vorion::splat {
@@ -23,7 +24,8 @@ void addDatapathOptions(CLI::App &App, RenderOptions &O) {
   addChoice(App, "--exp", O.Exponential, ExpUnits,
             "Exponential unit; tables need the rasterizer");
   addSize(App, "--alpha-cutoff", O.AlphaCutoff, {1, 2, 4, 8},
-          "Minimum alpha of a blended Gaussian, in units of 1/255");
+          "Minimum alpha of a blended Gaussian, in units of 1/255",
+          std::to_string(O.AlphaCutoff));
   App.add_option("--depth-bits", O.DepthBits,
                  "Number of leading depth bits in the sort key (default 32)")
       ->check(isBetween(1U, 32U));
@@ -39,8 +41,6 @@ void addRasterOptions(CLI::App &App, DrawArguments &A) {
   addChoice(App, "--blend", O.Arithmetic, BlendUnits,
             "Precision of the multiplications in the rasterizer's blend stage; "
             "sums are fp32");
-  addSize(App, "--tile", O.RasterTile, {16, 32, 64},
-          "Tile size in pixels on the raster path");
   App.add_option("--ztiles", O.ZTiles,
                  "Number of depth segments of a tile's list that are blended "
                  "independently and then merged (default 1)")
@@ -103,19 +103,25 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
   addProjectionOption(App, O.Through);
 }
 
-Expected<Success> checkSimtOptions(Path Blending, unsigned SimtTile,
-                                   unsigned SimtGroup) {
-  const RenderOptions Default;
-  if (Blending == Path::Raster &&
-      (SimtTile != Default.SimtTile || SimtGroup != Default.SimtGroup))
-    return usage("--simt-tile and --simt-group apply to the cores only, "
-                 "expected --path simt");
+static Expected<Success> checkGroup(Path Blending, unsigned SimtGroup) {
+  if (Blending == Path::Raster && SimtGroup != RenderOptions().SimtGroup)
+    return usage("--simt-group applies to the cores only, expected --path "
+                 "simt");
   return Success{};
 }
 
+Expected<Success> checkTilesBack(Path Blending,
+                                 const std::optional<unsigned> &Tile,
+                                 unsigned SimtGroup) {
+  if (Blending == Path::Raster && Tile)
+    return usage(fmt::format("--tile {}: the rasterizer's backward pass has "
+                             "tiles of 32x64 pixels, expected --path simt",
+                             *Tile));
+  return checkGroup(Blending, SimtGroup);
+}
+
 Expected<Success> checkPictureOptions(const RenderOptions &O) {
-  if (auto Checked = checkSimtOptions(O.Blending, O.SimtTile, O.SimtGroup);
-      !Checked)
+  if (auto Checked = checkGroup(O.Blending, O.SimtGroup); !Checked)
     return Checked;
   for (const float B : O.Background)
     if (!std::isfinite(B))
@@ -133,8 +139,10 @@ Expected<Success> checkPictureOptions(const RenderOptions &O) {
 void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects) {
   addPictureOptions(App, A.Options);
   addDatapathOptions(App, A.Options);
+  addTileOption(App, A.Options.Tile, {8, 16, 32, 64},
+                "64, or 16 with --path simt");
   addRasterOptions(App, A);
-  addSimtOptions(App, A.Options.SimtTile, A.Options.SimtGroup, {8, 16, 32, 64});
+  addGroupOption(App, A.Options.SimtGroup);
   HelpGroup Group(App, "Picture");
   addChoice(App, "--order", A.Options.Order,
             {PixelOrder::Depth, PixelOrder::Ray},
@@ -146,7 +154,8 @@ void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects) {
                "camera's frustum; results are bit-identical (docs/ideas.md)");
   addSize(App, "--ray-window", A.Options.RayWindow, {4, 8, 16},
           "Number of Gaussians that a pixel of --order ray finds in each pass "
-          "over its list; results are bit-identical");
+          "over its list; results are bit-identical",
+          std::to_string(A.Options.RayWindow));
   if (!Effects)
     return;
   Group.next("Device and kernels");
@@ -180,10 +189,12 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
         name(O.Exponential)));
   if (O.Blending == Path::Simt &&
       (O.ZTiles != 1 || O.PixelUnit.any() || O.SkipSaturated ||
-       O.Arithmetic != BlendUnit::Fp32 ||
-       O.RasterTile != RenderOptions().RasterTile))
-    return usage("--ztiles, --pixel-unit, --skip-saturated, --blend and --tile "
-                 "apply to the rasterizer only, expected --path raster");
+       O.Arithmetic != BlendUnit::Fp32))
+    return usage("--ztiles, --pixel-unit, --skip-saturated and --blend apply "
+                 "to the rasterizer only, expected --path raster");
+  if (O.Blending == Path::Raster && O.Tile == 8U)
+    return usage("--tile 8: the rasterizer has tiles of 16, 32 or 64 pixels, "
+                 "expected one of these, or --path simt");
   if (O.CullBlocks && O.Through == Spread::Unscented)
     return usage("--cull-blocks bounds footprints by the Jacobian, expected "
                  "--projection jacobian");
@@ -195,10 +206,10 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
         "--depth-bits rounds the depths of centres, expected --order depth");
   if (O.Order == PixelOrder::Depth && O.RayWindow != RenderOptions().RayWindow)
     return usage("--ray-window applies to rays only, expected --order ray");
-  if (O.Reach == Support::Official16 && O.SimtTile != 16)
-    return usage(fmt::format("--simt-tile {}: --support official16 has tiles "
-                             "of 16x16 pixels, expected 16",
-                             O.SimtTile));
+  if (O.Reach == Support::Official16 && O.tileSize() != 16)
+    return usage(fmt::format("--tile {}: --support official16 has tiles of "
+                             "16x16 pixels, expected 16",
+                             O.tileSize()));
   return Success{};
 }
 
@@ -270,13 +281,17 @@ void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {
   addChoice(App, "--path", Blending, {Path::Raster, Path::Simt}, Help);
 }
 
-void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
-                    const std::vector<unsigned> &Tiles) {
+void addTileOption(CLI::App &App, std::optional<unsigned> &Tile,
+                   const std::vector<unsigned> &Tiles,
+                   std::string_view Default) {
   const HelpGroup Heading(App, "Accuracy and speed");
-  addSize(App, "--simt-tile", Tile, Tiles,
-          "Tile size in pixels on the simt path");
+  addSize(App, "--tile", Tile, Tiles, "Tile size in pixels", Default);
+}
+
+void addGroupOption(CLI::App &App, unsigned &Group) {
+  const HelpGroup Heading(App, "Accuracy and speed");
   addSize(App, "--simt-group", Group, {16, 64, 256},
-          "Work-items per tile on the simt path");
+          "Work-items per tile on the simt path", std::to_string(Group));
 }
 
 void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
@@ -307,14 +322,17 @@ Expected<Success> checkBackwardOptions(const BackwardOptions &B,
 void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B) {
   O.Training = true;
   addPictureOptions(App, O);
-  addSimtOptions(App, O.SimtTile, O.SimtGroup, SimtTilesBack);
+  addTileOption(App, O.Tile, TilesBack, DefaultTileBack);
+  addGroupOption(App, O.SimtGroup);
   addBackwardOptions(App, B);
 }
 
 Expected<Success> checkGradientOptions(const RenderOptions &O,
                                        const BackwardOptions &B) {
-  if (auto Checked = checkPictureOptions(O); !Checked)
-    return Checked;
+  for (const auto &Checked : {checkPictureOptions(O),
+                              checkTilesBack(O.Blending, O.Tile, O.SimtGroup)})
+    if (!Checked)
+      return Checked;
   return checkBackwardOptions(B, O.Blending);
 }
 

@@ -74,15 +74,24 @@ void addProjectionOption(CLI::App &App, Spread &Through);
 
 void addPathOption(CLI::App &App, Path &Blending, const std::string &Help);
 
-/// Declares tile and group of the path `simt`.
-void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
-                    const std::vector<unsigned> &Tiles);
-/// The tile sizes of the backward pass: the cores keep a tile in local memory.
-inline const std::vector<unsigned> SimtTilesBack{8, 16};
+/// Declares the tile size, one of \p Tiles; \p Default is for the help.
+void addTileOption(CLI::App &App, std::optional<unsigned> &Tile,
+                   const std::vector<unsigned> &Tiles,
+                   std::string_view Default);
+/// The tile sizes of the backward pass on the cores, which keep a tile in local
+/// memory.
+inline const std::vector<unsigned> TilesBack{8, 16};
+inline constexpr std::string_view DefaultTileBack =
+    "32x64, or 16 with --path simt";
 
-/// Checks tile and group for the path \p Blending; an error is a usage error.
-Expected<Success> checkSimtOptions(Path Blending, unsigned SimtTile,
-                                   unsigned SimtGroup);
+/// Declares the group of the path `simt`.
+void addGroupOption(CLI::App &App, unsigned &Group);
+
+/// Checks tile and group of the backward pass for the path \p Blending; an
+/// error is a usage error.
+Expected<Success> checkTilesBack(Path Blending,
+                                 const std::optional<unsigned> &Tile,
+                                 unsigned SimtGroup);
 
 /// Declares the options of the rasterizer's backward mode.
 void addBackwardOptions(CLI::App &App, BackwardOptions &B);

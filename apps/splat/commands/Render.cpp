@@ -59,7 +59,7 @@ struct RenderArguments : DrawArguments {
   PageFiles Page;
   std::vector<std::string> WhatIf;
   LayerFiles Layers;
-  std::string Explain; ///< empty, "plan" or "measure"
+  bool Explain = false;
   bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
   EnergyArguments Energy;
@@ -68,7 +68,7 @@ struct RenderArguments : DrawArguments {
   std::string Numerics;            ///< settings, empty for no
   std::string HeatMap; ///< what names of files begin with, empty for no
   MeshArguments Mesh;
-  std::string Visible; ///< --dump-visible
+  std::string Visible; ///< --visible
 };
 
 bool isOne(const RenderArguments &A) { return A.Cameras.isOne(); }
@@ -92,17 +92,15 @@ Expected<Success> checkMesh(const RenderArguments &A, bool HasMesh) {
   };
   if (!HasMesh) {
     if (!A.Visible.empty())
-      return Usage("--dump-visible shows a mesh, expected --mesh");
+      return Usage("--visible shows a mesh, expected --mesh");
     return A.Mesh.Light ? lightWithoutMesh() : Expected<Success>(Success{});
   }
   if (A.Layers.needNormals() || A.Layers.needLists())
     return layersBesideMesh();
   if (!A.HeatMap.empty())
     return Usage("--heat-map shows one command per tile, expected no --mesh");
-  if (A.Explain == "measure")
-    return Usage("--explain=measure switches no mesh, expected no --mesh");
   if (!isOne(A) && !A.Visible.empty())
-    return Usage("--dump-visible applies to one picture, expected one --view");
+    return Usage("--visible applies to one picture, expected one --view");
   return Success{};
 }
 
@@ -141,8 +139,8 @@ Expected<Success> check(const RenderArguments &A) {
   const RenderOptions &O = A.Options;
   for (const auto &Checked :
        {checkEnding("-o", A.Output, outputEndings()), checkVideo(A),
-        checkEnding("--dump-pairs", A.Pairs, {".npz"}),
-        checkEnding("--dump-visible", A.Visible, {".npz"}),
+        checkEnding("--pairs", A.Pairs, {".npz"}),
+        checkEnding("--visible", A.Visible, {".npz"}),
         A.Mesh.File.empty() ? Success{} : checkMesh(A, /*HasMesh=*/true),
         checkJsonName(A.Json), checkPage(A.Page),
         checkEnding("--write-cameras", A.CamerasOut, {".json"})})
@@ -170,7 +168,7 @@ Expected<Success> check(const RenderArguments &A) {
     return Usage("--overlap needs several pictures, expected --view all or "
                  "several --view");
   if (!isOne(A) && !A.Pairs.empty())
-    return Usage("--dump-pairs applies to one picture, expected one --view");
+    return Usage("--pairs applies to one picture, expected one --view");
   if (!isOne(A) && A.Page.any())
     return Usage(A.Page.Html.empty()
                      ? "--figures applies to one picture, expected one --view"
@@ -183,21 +181,18 @@ Expected<Success> check(const RenderArguments &A) {
     if (O.Blending == Path::Simt)
       return Usage(
           "--heat-map shows the work of rasterizers, expected --path raster");
-    if (!isOne(A) || blendsAgain(A) || A.Explain == "measure")
+    if (!isOne(A) || blendsAgain(A))
       return Usage(
           "--heat-map applies to one blending pass of one view, expected one "
-          "--view, and neither --depth, --normals nor --explain=measure");
+          "--view, and neither --depth nor --normals");
   }
-  if (!isOne(A) && A.Explain == "measure")
-    return Usage(
-        "--explain=measure applies to one picture, expected one --view");
   // A render may take minutes: find out now whether it can be kept.
   std::vector<NamedFile> Outputs = HeatMapFiles::outputs(A.HeatMap);
   Outputs.insert(Outputs.end(), {{"-o", isOne(A) || isVideo(A) ? A.Output : ""},
                                  {"--json", A.Json},
                                  {"--html", A.Page.Html},
-                                 {"--dump-pairs", A.Pairs},
-                                 {"--dump-visible", A.Visible},
+                                 {"--pairs", A.Pairs},
+                                 {"--visible", A.Visible},
                                  {"--write-cameras", A.CamerasOut}});
   const std::vector<NamedFile> Layers = A.Layers.named();
   Outputs.insert(Outputs.end(), Layers.begin(), Layers.end());
@@ -213,7 +208,7 @@ Expected<Success> check(const RenderArguments &A) {
 RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
   RenderPlan Plan = planRender(EffectPlan(A.Request, In), A.Options);
   warnOfMissing(Plan.Effects, A.Effects);
-  if (!A.Explain.empty())
+  if (A.Explain)
     printOut("{}", explain(Plan));
   return Plan;
 }
@@ -222,7 +217,7 @@ RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
 void fallBack(const RenderArguments &A, const Launcher &L,
               const EffectInputs &In, RenderPlan &Plan) {
   // The counts of a frame must not depend on what was compiled before.
-  const bool FiguresWanted = !A.Json.empty() || !A.Explain.empty() ||
+  const bool FiguresWanted = !A.Json.empty() || A.Explain ||
                              !A.Numerics.empty() || !A.HeatMap.empty() ||
                              wantsTime(A);
   if (A.Request.Selection != EffectRequest::Mode::Auto || FiguresWanted)
@@ -240,7 +235,7 @@ bool wantsTiles(const RenderArguments &A) {
   // Of a second blend, or of several pictures, the figures would be others.
   return !A.HeatMap.empty() ||
          (A.Page.any() && A.Options.Blending == Path::Raster &&
-          !A.Options.Surface && !blendsAgain(A) && A.Explain != "measure");
+          !A.Options.Surface && !blendsAgain(A));
 }
 
 /// The page of --html and its figures. \p Map may be nullptr.
@@ -526,15 +521,6 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   clearStatus();
   if (!Others)
     return Others.error();
-  std::string Measured;
-  if (A.Explain == "measure") {
-    const auto Costs = measureEffects(Open, A.KernelFolder, A.Request, Inputs,
-                                      Cameras->front(), progress());
-    clearStatus();
-    if (!Costs)
-      return Costs.error();
-    Measured = toString(*Costs);
-  }
   auto D = Open();
   if (!D)
     return D.error();
@@ -567,7 +553,6 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
       return Text.error();
     printOut("{}", *Text);
   }
-  printOut("{}", Measured);
   return Success{};
 }
 
@@ -627,18 +612,14 @@ Runner addRender(CLI::App &App) {
   addMeshOptions(App, A->Mesh);
   addMeshPrecisionOptions(App, A->Options);
   Group.next("Beside the picture");
-  writesFile(App.add_option("--dump-visible", A->Visible,
+  writesFile(App.add_option("--visible", A->Visible,
                             "Write depth and triangle of the mesh in each "
                             "pixel (.npz)"),
              {".npz"});
   Group.next("Analysis");
   addDeviceOption(App, A->Device);
-  App.add_flag(
-         "--explain{plan}", A->Explain,
-         "Report for each effect whether it is compiled in, and why; with "
-         "=measure, also measure its cost by rendering with and without it")
-      ->option_text("[=measure]")
-      ->check(isOneOf({"plan", "measure"}));
+  App.add_flag("--explain", A->Explain,
+               "Report for each effect whether it is compiled in, and why");
   Group.next("Time and energy");
   App.add_flag("--time", A->Time,
                "Report the modelled frame time (docs/model.md)");
@@ -666,7 +647,7 @@ Runner addRender(CLI::App &App) {
   addLayerOptions(App, A->Layers);
   Group.next("Beside the picture");
   writesFile(App.add_option(
-                 "--dump-pairs", A->Pairs,
+                 "--pairs", A->Pairs,
                  "Write the sorted tile, depth_bits and index arrays (.npz)"),
              {".npz"});
   addKernelsOption(App, A->KernelFolder);

@@ -105,11 +105,11 @@ void addEditOptions(CLI::App &App, SceneEdits &E) {
       ->option_text("D")
       ->check(isBetween(0.0, 1e30))
       ->group(Group);
-  Numbers("--crop-box,--filter-box", E.Box, 6, "X0,Y0,Z0,X1,Y1,Z1",
+  Numbers("--crop-box", E.Box, 6, "X0,Y0,Z0,X1,Y1,Z1",
           "Keep Gaussians whose centre is inside the box between two corners");
-  Numbers("--crop-sphere,--filter-sphere", E.Sphere, 4, "X,Y,Z,R",
+  Numbers("--crop-sphere", E.Sphere, 4, "X,Y,Z,R",
           "Keep Gaussians whose centre is within R of a point");
-  App.add_option("--degree,--filter-harmonics", E.Degree,
+  App.add_option("--sh-degree", E.Degree,
                  "Keep spherical harmonics up to degree N")
       ->option_text("N")
       ->check(isBetween(0, MaxShDegree))

@@ -20,7 +20,7 @@ void addStudyOptions(CLI::App &App, StudyOptions &S, const std::string &What,
                      const std::string &Default) {
   const HelpGroup Group(App, "Study");
   writesFolder(App.add_option(
-      "--out", S.Folder,
+      "-o,--output", S.Folder,
       fmt::format(
           "Folder for measurements and page; existing measurements of the same "
           "inputs are reused (default: {}, in the current folder)",

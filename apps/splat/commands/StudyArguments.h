@@ -15,7 +15,7 @@
 namespace vorion::splat {
 
 /// Declares the options of a study. \p What names the measured thing in the
-/// help, as in "point"; \p Default is the default of --out.
+/// help, as in "point"; \p Default is the default of --output.
 void addStudyOptions(CLI::App &App, StudyOptions &S, const std::string &What,
                      const std::string &Default);
 

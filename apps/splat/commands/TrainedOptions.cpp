@@ -83,7 +83,8 @@ void addTrainPathOptions(CLI::App &App, TrainRequest &R) {
   addPathOption(App, R.Blending.Kind,
                 "Unit that runs blending and its backward pass: the rasterizer "
                 "or the cores");
-  addSimtOptions(App, R.Blending.SimtTile, R.Blending.SimtGroup, SimtTilesBack);
+  addTileOption(App, R.Blending.Tile, TilesBack, DefaultTileBack);
+  addGroupOption(App, R.Blending.SimtGroup);
   addBackwardOptions(App, R.Backward);
 }
 
@@ -105,8 +106,8 @@ Expected<Success> checkTrained(const TrainRequest &R) {
   if (auto Checked = checkBackwardOptions(R.Backward, R.Blending.Kind);
       !Checked)
     return Checked;
-  if (auto Checked = checkSimtOptions(R.Blending.Kind, R.Blending.SimtTile,
-                                      R.Blending.SimtGroup);
+  if (auto Checked = checkTilesBack(R.Blending.Kind, R.Blending.Tile,
+                                    R.Blending.SimtGroup);
       !Checked)
     return Checked;
   if (R.Run.Settings.AbsoluteGradient && R.Blending.Kind != Path::Simt)

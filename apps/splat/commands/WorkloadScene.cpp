@@ -5,7 +5,6 @@
 #include "io/Hash.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
@@ -16,12 +15,7 @@ namespace {
 
 /// The same view with fewer pixels, where it is wider than \p Most.
 Camera smaller(Camera View, int Most) {
-  if (View.Width <= Most)
-    return View;
-  const double Scale = static_cast<double>(Most) / View.Width;
-  const auto Height =
-      std::max(1, static_cast<int>(std::lround(View.Height * Scale)));
-  return resized(std::move(View), Most, Height);
+  return View.Width <= Most ? View : resized(std::move(View), Most);
 }
 
 /// A task of the last part of \p To for each of \p Views, which are \p Small.

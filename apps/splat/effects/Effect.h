@@ -34,7 +34,7 @@ struct EffectInputs {
   const Scene &Gaussians;
   const RenderOptions &Options;
   const ViewFacts &Facts;
-  bool KeepPairs = false;     ///< --dump-pairs
+  bool KeepPairs = false;     ///< --pairs
   bool Depth = false;         ///< --depth
   DeviceOptions Machine = {}; ///< options of the device
   bool Normals = false;       ///< --normals

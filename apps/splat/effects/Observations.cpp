@@ -63,8 +63,8 @@ Finding detectDebugger(const EffectInputs &In) {
 }
 
 Finding detectPairs(const EffectInputs &In) {
-  return In.KeepPairs ? Finding{true, "--dump-pairs"}
-                      : Finding{false, "not requested (--dump-pairs)"};
+  return In.KeepPairs ? Finding{true, "--pairs"}
+                      : Finding{false, "not requested (--pairs)"};
 }
 
 } // namespace

@@ -126,10 +126,12 @@ struct RenderOptions {
   /// Whether the mesh in each pixel is read back (RenderResult::MeshShown).
   bool KeepVisible = false;
 
+  /// Tile size, px: 16, 32 or 64 of the rasterizers, 8, 16, 32 or 64 of the
+  /// cores; empty: the path's default.
+  std::optional<unsigned> Tile;
+
   /// \name The rasterizers' path
   /// @{
-  /// Tile size, px: 16, 32 or 64.
-  unsigned RasterTile = 64;
   /// Depth segments of each tile's list, blended independently and merged: 1 to
   /// MaxZTiles.
   unsigned ZTiles = 1;
@@ -138,10 +140,9 @@ struct RenderOptions {
   Dealing Deal = Dealing::Lists;
   /// @}
 
-  /// \name The cores' path: pixels a side of a tile, work-items that draw it
+  /// \name The cores' path
   /// @{
-  unsigned SimtTile = 16;
-  unsigned SimtGroup = 256;
+  unsigned SimtGroup = 256; ///< work-items that draw a tile
   PixelOrder Order = PixelOrder::Depth;
   /// Gaussians that a pixel selects per pass over its list, the nearest along
   /// its ray: 4, 8 or 16.
@@ -155,7 +156,7 @@ struct RenderOptions {
   /// Whether a pixel takes more than four words of the rasterizer's buffer,
   /// which then holds half as many (docs/primitives.md, "Words a pixel").
   bool hasWidePixels() const {
-    return Training || (Surface && RasterTile == 64);
+    return Training || (Surface && Tile.value_or(64) == 64);
   }
 
   float nearLimit() const {
@@ -178,9 +179,9 @@ struct RenderOptions {
 
   /// Width and height of a tile of the path, px.
   unsigned tileSize() const {
-    return Blending == Path::Simt ? SimtTile
-           : hasWidePixels()      ? 32
-                                  : RasterTile;
+    if (Blending == Path::Simt)
+      return Tile.value_or(16);
+    return hasWidePixels() ? 32 : Tile.value_or(64);
   }
   unsigned tileHeight() const {
     return Blending == Path::Raster && hasWidePixels() ? 64 : tileSize();

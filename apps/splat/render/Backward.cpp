@@ -170,7 +170,7 @@ cl::Buffer BackwardPipeline::sumsByAtomics(const Frame &F,
   Launch.run(itemsFor(Words), GroupSize,
              kernels::blend_backward_atomics::clear_sums{.sums = Found,
                                                          .words = Words});
-  const uint32_t Items = Options.SimtTile * Options.SimtTile;
+  const uint32_t Items = Options.tileSize() * Options.tileSize();
   Launch.run(cl::NDRange(F.View.tiles[0] * Items, F.View.tiles[1]),
              cl::NDRange(Items, 1),
              kernels::blend_backward_atomics::blend_backward_atomics{

@@ -141,7 +141,7 @@ PixelParts Judge::pixel(const std::shared_ptr<const ShownScene> &S,
   const std::lock_guard Held(Lock);
   const RenderOptions Chosen = optionsOf(R, *S);
   reference::Options O = toReference(Chosen);
-  O.TileSize = static_cast<int>(Chosen.RasterTile);
+  O.TileSize = static_cast<int>(Chosen.tileSize());
   const auto C = referenceCamera<double>(*S, R.View);
   reference::MeshView Own{{HUGE_VAL}, {-1}, {}, {}, {}};
   if (Seen)

@@ -218,7 +218,7 @@ RenderOptions optionsOf(const ViewRequest &R, const ShownScene &Of) {
   O.Arithmetic = S.arithmetic();
   O.AlphaCutoff = Number(KnobId::AlphaCutoff);
   O.Cutoff = std::stof(S.value(KnobId::Cutoff));
-  O.RasterTile = Number(KnobId::Tile);
+  O.Tile = Number(KnobId::Tile);
   O.Reach = S.support();
   O.ShLimit = static_cast<int>(Number(KnobId::ShDegree));
   O.DepthBits = Number(KnobId::DepthBits);

@@ -38,7 +38,7 @@ TEST(ViewRequest, SaysWhatThePageAsksFor) {
   EXPECT_EQ(R->X, 63);
   const RenderOptions O = optionsOf(*R, {});
   EXPECT_EQ(O.Exponential, ExpUnit::Table);
-  EXPECT_EQ(O.RasterTile, 32U);
+  EXPECT_EQ(O.Tile, 32U);
 }
 
 TEST(ViewRequest, ALensIsThatOfCamerasFiles) {
@@ -106,9 +106,9 @@ TEST(ViewRequest, EveryKnobReachesTheOptions) {
     EXPECT_TRUE(
         A.Exponential != B.Exponential || A.Arithmetic != B.Arithmetic ||
         A.AlphaCutoff != B.AlphaCutoff || A.Cutoff != B.Cutoff ||
-        A.RasterTile != B.RasterTile || A.Reach != B.Reach ||
-        A.ShLimit != B.ShLimit || A.DepthBits != B.DepthBits ||
-        A.ZTiles != B.ZTiles || A.PixelUnit.any() != B.PixelUnit.any() ||
+        A.Tile != B.Tile || A.Reach != B.Reach || A.ShLimit != B.ShLimit ||
+        A.DepthBits != B.DepthBits || A.ZTiles != B.ZTiles ||
+        A.PixelUnit.any() != B.PixelUnit.any() ||
         A.SkipSaturated != B.SkipSaturated ||
         A.SubpixelBits != B.SubpixelBits || A.MeshDepth != B.MeshDepth ||
         A.FilterBits != B.FilterBits)

@@ -33,7 +33,6 @@ CASES = (
     ("splat render --output=", "old.png !scene.ply"),
     ("splat render --kernels ", "inner/ !scene.ply"),
     ("splat render --effects sh1,fai", "sh1,faint"),
-    ("splat render --explain=", "plan measure"),
     ("splat render scene.ply --cameras cameras.json --view ", "front close above all"),
     ("splat render scene.ply --cameras cameras.json --view fr", "front !close"),
     ("splat render scene.ply --cameras=cameras.json --view fr", "front !close"),

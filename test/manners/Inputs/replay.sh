@@ -10,7 +10,7 @@ splat convert s.ply s.ply --scale 2 -o c.sog --json c2.json > said
 splat convert s.ply -o c.spz --json=c3.json > said
 mkdir -p sog && splat convert s.ply -o sog/meta.json --json sog.json > said
 splat demo-scene --gaussians 1000 --cameras d.cameras.json --json d.json > said
-splat render s.ply --cameras c.json --view front -o p.pfm --dump-pairs p.npz > said
+splat render s.ply --cameras c.json --view front -o p.pfm --pairs p.npz > said
 splat compare --pairs p.npz p.npz --json p.json > said
 cd /
 replay() { # name report

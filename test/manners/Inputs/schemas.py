@@ -57,7 +57,7 @@ view = ("s.ply", "--cameras", "c.json", "--view", "front")
 
 splat("info", "demo.ply")
 splat("info", capture)
-splat("analyze", "demo.ply", "--cameras", "demo.json", "--view", "front", "--width", "32", "--order-beside", "close")
+splat("analyze", "demo.ply", "--cameras", "demo.json", "--view", "front", "--size", "32", "--order-beside", "close")
 splat("render", *view, "-o", "a.npz", "--explain")
 splat("render", *view, "-o", "b.npz", "--path", "simt")
 splat("compare", "a.npz", "b.npz")
@@ -73,31 +73,31 @@ with open("c.json", encoding="utf-8") as file:
 size = camera["height"], camera["width"]
 numpy.savez("upstream.npz", in_v_render=numpy.ones((*size, 3), "f"), in_v_alpha=numpy.zeros(size, "f"))
 splat("effects", *view, "--runs", "1", "--each")
-splat("hard-cases", "--case", "needles", report="hard-cases/hard-cases.json")
-splat("convert", "demo.ply", "s.ply", "--drop-faint", "0.1", "--degree", "1", "-o", "joined.spz")
+splat("hard-cases", "needles", report="hard-cases/hard-cases.json")
+splat("convert", "demo.ply", "s.ply", "--drop-faint", "0.1", "--sh-degree", "1", "-o", "joined.spz")
 splat("demo-scene", "--gaussians", "1000", "-o", "again.ply")
 os.rename("report.json", "made.json")
 splat("replay", "made.json")
 for path in ("raster", "simt"):
-    run("splat", "render", *view, "-o", "a.npz", "--path", path, "--dump-pairs", path + ".npz")
+    run("splat", "render", *view, "-o", "a.npz", "--path", path, "--pairs", path + ".npz")
 splat("compare", "--pairs", "raster.npz", "raster.npz")
 splat("gradients", *view, "--upstream", "upstream.npz", "-o", "g.npz")
 splat("train", capture, "-o", "t.ply", "--iterations", "2", "--time", "--time-every", "1", "--score-every", "1")
 splat("eval", "t.ply", capture)
-splat("accuracy", *view[:3], "--out", "accuracy", "--knobs", "sh-degree", "--no-cores", "--no-host", report="accuracy/accuracy.json")
-splat("accuracy", "--train", capture, "--out", "training", "--iterations", "1", "--seeds", "1", "--score-every", "1",
+splat("accuracy", *view[:3], "-o", "accuracy", "--knobs", "sh-degree", "--no-cores", "--no-host", report="accuracy/accuracy.json")
+splat("accuracy", "--train", capture, "-o", "training", "--iterations", "1", "--seeds", "1", "--score-every", "1",
       "--time-every", "1", report="training/training.json")
 with open("space.json", "w", encoding="utf-8") as file:
-    json.dump({"parameters": {"lanes": {"key": "timing.raster.lanes", "values": [8]}, "simt": {"option": "--simt-tile", "values": [8]},
+    json.dump({"parameters": {"lanes": {"key": "timing.raster.lanes", "values": [8]}, "simt": {"option": "--simt-group", "values": [16]},
                               "tile": {"option": "--tile", "values": [32]}}}, file)
-splat("explore", *view[:3], "--out", "machines", "--space", "space.json", "--machines", "5", "--finalists", "1", "--checks", "2", "--small-width", "16",
+splat("explore", *view[:3], "-o", "machines", "--space", "space.json", "--machines", "5", "--finalists", "1", "--checks", "2", "--small-width", "16",
       report="machines/explore.json")
 with open("workload.json", "w", encoding="utf-8") as file:
-    json.dump({"scenes": [{"scene": "s.ply", "cameras": "c.json", "views": ["front"], "size": "20x20"},
+    json.dump({"scenes": [{"scene": "s.ply", "cameras": "c.json", "view": ["front"], "size": "20x20"},
                           {"name": "two", "scene": "s.ply", "cameras": "c.json", "antialiased": True, "weight": 0.5}],
                "training": [{"capture": capture, "iterations": 1}]}, file)
 check_file("workload.json", "splat-workload")
-splat("explore", "--workload", "workload.json", "--out", "together", "--space", "space.json", "--machines", "5", "--finalists", "1", "--checks", "2",
+splat("explore", "--workload", "workload.json", "-o", "together", "--space", "space.json", "--machines", "5", "--finalists", "1", "--checks", "2",
       "--small-width", "32", report="together/explore.json")
 splat("doctor")
 run("vorion-clang", "--resources=resources.json", os.path.join(root, "test", "clang", "Inputs", "slow.cl"), "-o", "slow.elf")

@@ -13,7 +13,7 @@ render path --view front -o x.png --path rastr
 render unit --view front -o x.png --exp tabel
 render size --view front -o x.png --tile 17
 render effect --view front -o x.png --effects sh1,fanit
-try knob splat accuracy s.ply --cameras c.json --out o --knobs tlie
+try knob splat accuracy s.ply --cameras c.json -o o --knobs tlie
 try kernel vorion-sim k.elf --kernel subtrct --global 1 --arg buf:4
 try key vorion-sim k.elf --set raster.quue_depth=8
 try machine vorion-sim k.elf --config protype

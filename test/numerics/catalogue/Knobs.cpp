@@ -56,9 +56,7 @@ double blendUnit(const RenderOptions &O, std::size_t Gaussians) {
   return 3 * D / (1 - D) + std::min(1.0, Behind) + Subnormal;
 }
 
-template <unsigned Size> void takeTile(RenderOptions &O) {
-  O.RasterTile = Size;
-}
+template <unsigned Size> void takeTile(RenderOptions &O) { O.Tile = Size; }
 
 /// Of the picture, on both paths.
 std::vector<Knob> pictureKnobs() {
@@ -76,7 +74,7 @@ std::vector<Knob> pictureKnobs() {
       {"--support official16", "support", Path::Simt,
        [](RenderOptions &O) {
          O.Reach = Support::Official16;
-         O.SimtTile = 16;
+         O.Tile = 16;
        },
        none},
       {"--rules gsplat",
@@ -196,12 +194,9 @@ std::vector<Knob> pathKnobs() {
                         O.Through == splat::Spread::Jacobian;
        },
        none},
-      {"--simt-tile 8", "simt-tile", Path::Simt,
-       [](RenderOptions &O) { O.SimtTile = 8; }, none},
-      {"--simt-tile 32", "simt-tile", Path::Simt,
-       [](RenderOptions &O) { O.SimtTile = 32; }, none},
-      {"--simt-tile 64", "simt-tile", Path::Simt,
-       [](RenderOptions &O) { O.SimtTile = 64; }, none},
+      {"--tile 8", "cores' tile", Path::Simt, takeTile<8>, none},
+      {"--tile 32", "cores' tile", Path::Simt, takeTile<32>, none},
+      {"--tile 64", "cores' tile", Path::Simt, takeTile<64>, none},
       {"--simt-group 16", "simt-group", Path::Simt,
        [](RenderOptions &O) { O.SimtGroup = 16; }, none},
       {"--simt-group 64", "simt-group", Path::Simt,
@@ -272,7 +267,7 @@ Setting combination(Path P, uint32_t Seed) {
     const Knob &K = All[Begin + Engine() % (End - Begin)];
     const bool Turn = Engine() % 2 == 0;
     // Official16 has tiles of 16 pixels.
-    const bool Fits = K.Dimension != "simt-tile" || S.empty() ||
+    const bool Fits = K.Dimension != "cores' tile" || S.empty() ||
                       std::ranges::none_of(S, [](const Knob *Other) {
                         return Other->Flags == "--support official16";
                       });

@@ -109,16 +109,8 @@ int main(int Count, char **Values) {
                "splat-hard-cases");
   vorion::test::Arguments A;
   App.add_option("cases", A.Plan.Cases, "Names of cases (default: all)");
-  App.add_option_function<std::vector<std::string>>(
-         "--case",
-         [&A](const std::vector<std::string> &Names) {
-           A.Plan.Cases.insert(A.Plan.Cases.end(), Names.begin(), Names.end());
-         },
-         "Name of a case; may be repeated")
-      ->allow_extra_args(false)
-      ->option_text("NAME");
   vorion::writesFolder(
-      App.add_option("--out", A.Out,
+      App.add_option("-o,--output", A.Out,
                      "Folder for pictures, index.html and hard-cases.json")
           ->capture_default_str());
   vorion::splat::addFiguresOption(App, A.Figures);

@@ -63,8 +63,8 @@ render "no z-tiles" s.ply c.json front p.png --ztiles 0
 render "too many z-tiles" s.ply c.json front p.png --ztiles 17
 render "z-tiles by simt" s.ply c.json front p.png --path simt --ztiles 2
 render "unknown hand-over" s.ply c.json front p.png --pixel-unit half
-render "tile of 24" s.ply c.json front p.png --path simt --simt-tile 24
-render "official16 in tiles of 32" s.ply c.json front p.png --path simt --support official16 --simt-tile 32
+render "tile of 24" s.ply c.json front p.png --path simt --tile 24
+render "official16 in tiles of 32" s.ply c.json front p.png --path simt --support official16 --tile 32
 attempt "unknown subcommand" draw
 attempt "too few Gaussians" demo-scene -o d.ply --gaussians 3
 attempt "demo into nowhere" demo-scene -o nowhere/s.ply --gaussians 1000

@@ -13,9 +13,9 @@ splat render s.ply --cameras inria.json --orbit 4 --size 48x32 -o o.png >said
 echo o.*.png | sed 's/o\.\([^ ]*\)\.png/\1/g'
 splat render s.ply --cameras c.json --frames 3 --size 48x32 -o f.png >said
 echo f.*.png | sed 's/f\.\([^ ]*\)\.png/\1/g'
-splat analyze s.ply --width 64 | sed -n '1s/ .*//p' | sed 's/^/analyzed /'
+splat analyze s.ply --size 64 | sed -n '1s/ .*//p' | sed 's/^/analyzed /'
 splat render s.ply --size 96x54 -o a.pfm >said && splat render s.ply --size 96x54 -o b.pfm >said && cmp a.pfm b.pfm && echo "the same twice"
 splat render s.ply --frames 3 -o no.png 2>&1
-splat render s.ply --size 96 -o no.png 2>&1
+splat render s.ply --size 96x -o no.png 2>&1
 splat render s.ply --cameras none.json -o no.png 2>&1
 true

@@ -8,8 +8,8 @@ attempt() {
 }
 echo "box.ply: 600"
 splat convert s.ply -o box.ply --crop-box -1,-1,0,1,1,2
-splat convert s.ply -o sphere.ply --filter-sphere 0,0,2,1.5
-splat convert s.ply -o thin.ply --drop-faint 0.3 --degree 1
+splat convert s.ply -o sphere.ply --crop-sphere 0,0,2,1.5
+splat convert s.ply -o thin.ply --drop-faint 0.3 --sh-degree 1
 splat convert s.ply thin.ply s.ply -o twice.ply --crop-box -99,-99,-99,99,99,99 >said
 splat convert s.ply s.ply -o joined.ply | sed -n 's/^joined.ply/joined/p'
 # A quarter turn about x takes y to z and z to -y; the camera goes with it.

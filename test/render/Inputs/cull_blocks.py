@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 WAYS = ["--path raster", "--path simt", "--support box3", "--support square3", "--path simt --support official16",
-        "--rules gsplat", "--rules gsplat --support square3 --tile 16", "--near 3", "--alpha-cutoff 4", "--path simt --simt-tile 8"]
+        "--rules gsplat", "--rules gsplat --support square3 --tile 16", "--near 3", "--alpha-cutoff 4", "--path simt --tile 8"]
 
 
 def draw(name, options):

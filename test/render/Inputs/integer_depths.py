@@ -2,7 +2,7 @@
 """Checks that a mesh's depths are those of a depth buffer of integers.
 
 usage: integer_depths.py BITS NEAR VISIBLE.npz
-The file is of splat render --dump-visible, with fp32 numbers.
+The file is of splat render --visible, with fp32 numbers.
 """
 
 import array

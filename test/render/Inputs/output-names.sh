@@ -16,7 +16,7 @@ attempt "convert without ending" convert $scene -o x
 attempt "info as text" info $scene --json x.csv
 attempt "render to gif" render $scene $view -o x.gif
 attempt "depth as png" render $scene $view -o x.png --depth x.png
-attempt "pairs as text" render $scene $view -o x.png --dump-pairs x.csv
+attempt "pairs as text" render $scene $view -o x.png --pairs x.csv
 attempt "report as picture" render $scene $view -o x.png --json x.PNG
 attempt "gradients as npy" gradients $scene $view --upstream u.npz -o x.npy
 attempt "page as svg" analyze $scene $view --html x.svg
@@ -24,7 +24,6 @@ attempt "counts as svg" analyze $scene $view --json x.svg
 attempt "demo as splat" demo-scene -o x.splat --gaussians 1000
 attempt "demo's cameras" demo-scene -o x.ply --cameras x.txt --gaussians 1000
 attempt "train to spz" train . -o x.spz
-attempt "curve as png" train . -o x.ply --curve x.png
 attempt "comparison as npz" compare a.npz b.npz --json x.npz
 printf 'written:'
 for file in x*; do [ -e "$file" ] && printf ' %s' "$file" || printf ' none'; done

@@ -34,8 +34,8 @@ def check(folder, document):
     assert [row["machine"] for row in rows] == list(MACHINES)
     for row in rows:
         raster = load(folder, f"scene-front-{row['machine']}-path-raster")
-        official = "path-simt-support-official16-simt-tile-16-simt-group-256"
-        fastest = f"path-simt-simt-tile-{row['tile']}-simt-group-{row['group']}"
+        official = "path-simt-support-official16-tile-16-simt-group-256"
+        fastest = f"path-simt-tile-{row['tile']}-simt-group-{row['group']}"
         blend, cycles, ms = stage(raster, "blend"), raster["time"]["sum"]["cycles"], raster["time"]["frame_ms"]
         longest = ms - raster["time"]["kernel_ms"] * min(blend, cycles - blend) / cycles
         for baseline, options in (("fastest", fastest), ("official", official)):
@@ -75,7 +75,7 @@ def check_training(folder, document):
         ours = load(folder, f"{state}-{machine}-path-raster")["timed"]
         assert len(ours) == 3
         whole = of["kernels_whole"]
-        theirs = load(folder, f"{state}-{machine}-path-simt-simt-tile-{whole['tile']}-simt-group-{whole['group']}")["timed"]
+        theirs = load(folder, f"{state}-{machine}-path-simt-tile-{whole['tile']}-simt-group-{whole['group']}")["timed"]
 
         def ms(samples):
             return sum(s["time"]["frame_ms"] for s in samples) / 3

@@ -2,7 +2,7 @@
 # What splat explore says of spaces that are wrong, of s.ply and c.json in this folder.
 try() { # a parameter
   printf '{"parameters": {"first": {"key": "clusters", "values": [2]}, "p": %s}}' "$1" > wrong.json
-  splat explore s.ply --cameras c.json --out w --space wrong.json --small-width 16 2>&1 && exit 1
+  splat explore s.ply --cameras c.json -o w --space wrong.json --small-width 16 2>&1 && exit 1
 }
 try '{"key": "timing.raster.lans", "values": [8]}'
 try '{"choices": {"c": {"timing.raster.lans": 8}}}'

@@ -12,7 +12,7 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
   RenderOptions O;
   O.Convention = Convention;
   O.Blending = By.Kind;
-  O.SimtTile = By.SimtTile;
+  O.Tile = By.Tile;
   O.SimtGroup = By.SimtGroup;
   O.Antialiased = How.Antialiased;
   O.Near = How.Near;

@@ -13,12 +13,13 @@ namespace vorion::splat {
 /// The path of blending and of the backward pass.
 struct Blender {
   Blender(Path P) : Kind(P) {}
-  Blender(Path P, unsigned SimtTile, unsigned SimtGroup)
-      : Kind(P), SimtTile(SimtTile), SimtGroup(SimtGroup) {}
+  Blender(Path P, unsigned Tile, unsigned SimtGroup)
+      : Kind(P), Tile(Tile), SimtGroup(SimtGroup) {}
 
   Path Kind;
   /// For the path `simt` (RenderOptions); the backward pass has groups of 16.
-  unsigned SimtTile = 16, SimtGroup = 256;
+  std::optional<unsigned> Tile;
+  unsigned SimtGroup = 256;
 };
 
 class DeviceRenderer : public GradientRenderer {

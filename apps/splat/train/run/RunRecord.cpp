@@ -131,8 +131,8 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
   // What the order of the cores' sums depends on.
   if (Backward.Pixels != SimtSums::Ordered)
     J["simt_sums"] = name(Backward.Pixels);
-  if (By.Kind == Path::Simt && By.SimtTile != Blender(By.Kind).SimtTile)
-    J["simt_tile"] = By.SimtTile;
+  if (By.Tile && By.Tile != 16U) // the default of the cores
+    J["tile"] = *By.Tile;
   if (Run.From.empty())
     J["points"] = Run.Points;
   else
