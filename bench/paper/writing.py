@@ -1,7 +1,10 @@
 """Markdown tables and charts."""
 
+import glob
 import json
+import os
 import subprocess
+import tempfile
 import textwrap
 
 WIDEST = 100  # columns of a line of prose
@@ -49,6 +52,13 @@ def chart(title, x_label, y_label, places, series, bars=False):
 
 
 def svg_of(described, made):
-    """An SVG document in the look of the pages of splat; made: lines for its foot."""
+    """An SVG document, drawn as the charts of splat's pages; made: lines that say what made it."""
     text = json.dumps({**described, "places": list(described["places"]), "made": made})
-    return subprocess.run(["splat-chart"], input=text, stdout=subprocess.PIPE, check=True, text=True).stdout
+    with tempfile.TemporaryDirectory() as folder:
+        page = os.path.join(folder, "page.html")
+        with open(page, "w", encoding="utf-8") as out:
+            subprocess.run(["splat-chart"], input=text, stdout=out, check=True, text=True)
+        subprocess.run(["splat-figures", page, folder], check=True)
+        [file] = glob.glob(os.path.join(folder, "*.svg"))
+        with open(file, encoding="utf-8") as svg:
+            return svg.read()

@@ -10,10 +10,8 @@ std::map<std::string, Chart> chartsOf(const Analysis &A) {
               "tile size (pixels)",
               "invocations (thousands)",
               {},
-              1,
               {},
-              true,
-              {}};
+              true};
   for (const int Size : AnalyzedTiles)
     Pairs.Places.push_back(std::to_string(Size));
   for (std::size_t K = 0; K < AnalyzedSupports.size(); ++K) {
@@ -27,18 +25,14 @@ std::map<std::string, Chart> chartsOf(const Analysis &A) {
                   "part of the tile's list that is done (%)",
                   "occluded pixels (%)",
                   {},
-                  20,
                   {},
-                  false,
-                  {}};
+                  false};
   Chart Lengths{"Lengths of the tiles' lists",
                 "entries (from; to twice as many)",
                 "tiles (%)",
                 {},
-                2,
                 {},
-                true,
-                {}};
+                true};
   for (int Percent = 0; Percent <= 100; ++Percent)
     Occlusion.Places.push_back(std::to_string(Percent));
   std::size_t Bins = 0;

@@ -179,8 +179,7 @@ Expected<std::string> pageOf(const EffectsFound &F, const Image &Picture) {
              .YLabel = "%",
              .Places = {},
              .Series = {{"cycles", {}}, {"warp instructions", {}}},
-             .Bars = true,
-             .Made = {}};
+             .Bars = true};
   const ModeCost &Base = F.Modes.front();
   for (const ModeCost &M : F.Modes) {
     Bars.Places.emplace_back(name(M.Selection));

@@ -12,7 +12,6 @@
 
 #include "capture/Undistort.h"
 #include "io/ReportHead.h"
-#include "page/Chart.h"
 #include "scene/LocalFrame.h"
 #include "scene/formats/Ply.h"
 #include "train/run/TrainReport.h"
@@ -32,7 +31,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 namespace vorion::splat {
@@ -41,14 +39,14 @@ namespace {
 
 struct TrainArguments {
   TrainedArguments Trained;
-  std::string Output, Json, Curve, Device;
+  std::string Output, Json, Device;
   TrainPictures Pictures;
-  bool Time = false, Breakdown = false, View = false;
+  bool Time = false, View = false;
   std::optional<int> Port;
   EnergyArguments Energy;
   std::optional<unsigned> GivenTimeEvery;
 
-  bool isClocked() const { return Time || Breakdown || Energy.isWanted(); }
+  bool isClocked() const { return Time || Energy.isWanted(); }
   unsigned timeEvery() const { return GivenTimeEvery.value_or(50); }
 };
 
@@ -76,34 +74,6 @@ void showProgress(const TrainProgress &P) {
     printNote(Line + "\n");
 }
 
-/// The losses in so many parts of the run, as means.
-std::string curveOf(const std::vector<float> &Losses, const std::string &What) {
-  const std::size_t Parts = std::min<std::size_t>(50, Losses.size());
-  Chart C{"Loss in training, " + What,
-          "iteration",
-          "loss",
-          {},
-          1,
-          {},
-          false,
-          {madeBy()},
-          {},
-          static_cast<double>(Losses.size())};
-  ChartSeries Means{"mean of a part", {}};
-  for (std::size_t P = 0; P < Parts; ++P) {
-    const auto Begin = static_cast<std::ptrdiff_t>(P * Losses.size() / Parts);
-    const auto End =
-        static_cast<std::ptrdiff_t>((P + 1) * Losses.size() / Parts);
-    // The middle of the part: iterations count from 1.
-    C.Numbers.push_back(static_cast<double>(Begin + 1 + End) / 2);
-    Means.Values.push_back(
-        std::accumulate(Losses.begin() + Begin, Losses.begin() + End, 0.0) /
-        static_cast<double>(End - Begin));
-  }
-  C.Series.push_back(std::move(Means));
-  return svgOf(C);
-}
-
 Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
                                const std::optional<EnergyRequest> &Energy) {
   const auto Report = trainReport(A.Trained.Request, Out, Energy);
@@ -117,14 +87,6 @@ Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
   if (auto Written = writeTrainPictures(A.Pictures, A.Output, Out, *Report);
       !Written)
     return Written;
-  if (!A.Curve.empty())
-    if (auto Written = writeFileAtomically(
-            A.Curve,
-            curveOf(Out.Losses, std::filesystem::path(A.Trained.Request.Capture)
-                                    .filename()
-                                    .string()));
-        !Written)
-      return Written;
   if (A.Json.empty())
     return Success{};
   return writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n");
@@ -195,7 +157,7 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
   else
     printOut("held out     no held-out views\n");
   printOut("cameras      {}\n", escaped(camerasFor(A.Output)));
-  if (A.Breakdown && !Out.Timed.empty())
+  if (!Out.Timed.empty())
     printOut("{}", Out.Timed.lastByStage());
 }
 
@@ -214,8 +176,7 @@ Expected<Success> printEnergy(const ClockSamples &Timed,
 Expected<Success> check(const TrainArguments &A) {
   const TrainRequest &R = A.Trained.Request;
   for (const auto &Checked :
-       {checkEnding("-o", A.Output, {".ply"}),
-        checkEnding("--curve", A.Curve, {".svg"}), checkJsonName(A.Json),
+       {checkEnding("-o", A.Output, {".ply"}), checkJsonName(A.Json),
         checkTrainPictures(A.Pictures)})
     if (!Checked)
       return Checked;
@@ -233,7 +194,7 @@ Expected<Success> check(const TrainArguments &A) {
         "--score-every evaluates held-out views, expected --hold-out above 0",
         ExitCode::Usage};
   if (A.GivenTimeEvery && !A.isClocked())
-    return Error{"", "--time-every: expected --time, --breakdown or --energy",
+    return Error{"", "--time-every: expected --time or --energy",
                  ExitCode::Usage};
   if (R.ScoreEvery != 0 && A.Json.empty() && !A.Pictures.Page.any() && !A.View)
     return Error{"", "--score-every: expected --json, --html or --view",
@@ -247,7 +208,6 @@ Expected<Success> check(const TrainArguments &A) {
                                 .file("--technology", A.Energy.Technology);
   return claimOutputs({{"-o", A.Output},
                        {"--json", A.Json},
-                       {"--curve", A.Curve},
                        {"the cameras", camerasFor(A.Output)},
                        {"--html", A.Pictures.Page.Html},
                        {"--checkpoint", R.Checkpoint}},
@@ -260,11 +220,11 @@ Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine,
     Machine.set("VORION_TIME", "profiled", "--time");
   auto D = openDevice(A.Device, A.Trained.Request.Blending.Kind, Machine);
   if (D && A.isClocked() && !D->isVorion())
-    return Error{"",
-                 fmt::format("{} has no clock for --time and --breakdown, "
-                             "expected a Vorion device",
-                             D->name()),
-                 ExitCode::Usage};
+    return Error{
+        "",
+        fmt::format("{} has no clock for --time, expected a Vorion device",
+                    D->name()),
+        ExitCode::Usage};
   if (D)
     checkEnergyOf(*D, Energy);
   return D;
@@ -348,10 +308,8 @@ Runner addTrain(CLI::App &App) {
                "Continue from the checkpoint if it exists");
   Group.next("Time and energy");
   App.add_flag("--time", A->Time,
-               "Report the modelled time of iterations (docs/model.md)");
-  App.add_flag(
-      "--breakdown", A->Breakdown,
-      "As --time, with a breakdown of the last timed iteration by stage");
+               "Report the modelled time of iterations, and of the last timed "
+               "one by stage (docs/model.md)");
   App.add_option("--time-every", A->GivenTimeEvery,
                  "Time one of N iterations, sampled at random from the seed "
                  "(default 50)")
@@ -362,13 +320,11 @@ Runner addTrain(CLI::App &App) {
   App.add_option("--score-every", R.ScoreEvery,
                  "Evaluate the held-out views every N iterations, for --json, "
                  "--html and --view (default: with --html or --view a "
-                 "twentieth of the run, else only at the end)");
+                 "twentieth of the run, else only at the end)")
+      ->check(isIterations());
   writesFile(App.add_option("--json", A->Json,
                             "Write a report with options, losses and times"),
              {".json"});
-  writesFile(
-      App.add_option("--curve", A->Curve, "Write a plot of the loss (.svg)"),
-      {".svg"});
   addTrainPictures(App, A->Pictures);
   App.add_flag("--view", A->View,
                "Serve a page of the run: picture, curves, pause and stop");

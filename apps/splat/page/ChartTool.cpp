@@ -1,8 +1,8 @@
-// splat-chart: the chart that standard input describes in JSON, as SVG on
-// standard output. Scripts that measure draw with it (bench/paper/writing.py);
-// it is not installed.
+// splat-chart: a page with the chart that standard input describes in JSON, on
+// standard output. Scripts that measure give it to splat-figures
+// (bench/paper/writing.py); it is not installed.
 
-#include "page/Chart.h"
+#include "page/VerdictPage.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
@@ -17,7 +17,7 @@ using namespace vorion;
 using Json = nlohmann::ordered_json;
 
 /// "series" is an object of lists of numbers, a series' name each.
-Expected<splat::Chart> readChart() {
+Expected<splat::VerdictPage> readChart() {
   const std::string In = "/dev/stdin";
   const auto J = readJson<Json>(In, "a chart");
   if (!J)
@@ -36,8 +36,8 @@ Expected<splat::Chart> readChart() {
       !Fits)
     return Fits.error();
   splat::Chart C{
-      (*J)["title"], (*J)["x_label"], (*J)["y_label"], (*J)["places"], 1, {},
-      (*J)["bars"],  (*J)["made"]};
+      (*J)["title"], (*J)["x_label"], (*J)["y_label"], (*J)["places"], {},
+      (*J)["bars"]};
   const std::size_t Places = C.Places.size();
   for (const auto &[Name, Values] : (*J)["series"].items()) {
     if (auto Fits = JsonShape::list(JsonShape::number(), Places, Places)
@@ -46,17 +46,21 @@ Expected<splat::Chart> readChart() {
       return Fits.error();
     C.Series.push_back({Name, Values});
   }
-  return C;
+  splat::VerdictPage Page;
+  Page.Heading = C.Title;
+  Page.Charts = {C};
+  Page.Made = (*J)["made"];
+  return Page;
 }
 
 } // namespace
 
 int main() {
   return runTool("splat-chart", [] {
-    const auto C = readChart();
-    if (!C)
-      return reportError("splat-chart", C.error());
-    printText(splat::svgOf(*C));
+    const auto Page = readChart();
+    if (!Page)
+      return reportError("splat-chart", Page.error());
+    printText(splat::verdictPageOf(*Page));
     return EXIT_SUCCESS;
   });
 }

@@ -132,8 +132,8 @@ class SvgContext {
     const { width, height } = this.canvas;
     // A chart's size is in whole pixels.
     const mm = pixels => rounded(pixels / (Math.abs(width - COLUMN) < 1 ? width / 84 : MILLIMETRE));
-    return `<svg xmlns="http://www.w3.org/2000/svg" width="${mm(width)}mm" height="${mm(height)}mm" viewBox="0 0 ${rounded(width)} ${rounded(height)}" ` +
-      `font-family="${forXml(FONT)}">\n<title>${forXml(title)}</title>\n<desc>${forXml(made.join('\n'))}</desc>\n${this.#parts.join('\n')}\n</svg>\n`;
+    return `<svg xmlns="http://www.w3.org/2000/svg" width="${mm(width)}mm" height="${mm(height)}mm" viewBox="0 0 ${rounded(width)} ${rounded(height)}" ` + // whose paper is white where the page around it is dark
+      `font-family="${forXml(FONT)}">\n<title>${forXml(title)}</title>\n<desc>${forXml(made.join('\n'))}</desc>\n<rect width="100%" height="100%" fill="#fff"/>\n${this.#parts.join('\n')}\n</svg>\n`;
   }
 }
 

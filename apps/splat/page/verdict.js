@@ -9,12 +9,16 @@ function tableOf({ title, columns, rows }) {
     element('tbody', {}, ...rows.map(row => rowOf(row)))));
 }
 
+// Beside colours, for readers who cannot tell them apart.
+const DASHES = [[], [7, 3], [2, 3], [9, 3, 2, 3], [1, 2], [12, 3], [4, 4]];
+
 function redraw() {
   data.charts.forEach(({ title, x_label: x, y_label: y, places, bars, series }) => drawChart(slug(title), {
     type: bars ? 'bar' : 'line',
-    data: { labels: places, datasets: series.map(({ name, values }, k) => ({ label: name, data: values, backgroundColor: seriesColour(k), borderColor: seriesColour(k) })) },
+    data: { labels: places, datasets: series.map(({ name, values }, k) => ({ label: name, data: values, backgroundColor: seriesColour(k), borderColor: seriesColour(k),
+      borderDash: bars ? [] : DASHES[k % DASHES.length], borderWidth: bars ? 0 : 1.5, pointRadius: 0 })) },
     options: {
-      scales: { x: axis(x), y: axis(y, { beginAtZero: true }) },
+      scales: { x: axis(x, { ticks: { autoSkip: !bars } }), y: axis(y, { beginAtZero: true }) },
       plugins: { title: { display: true, text: title, color: colour('ink') }, legend: { position: 'bottom' } },
     },
   }));
