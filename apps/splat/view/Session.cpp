@@ -12,7 +12,6 @@
 #include "scene/SceneWriter.h"
 #include "scene/Statistics.h"
 #include "view/Paint.h"
-#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
@@ -74,7 +73,7 @@ Json triangleOf(const PixelTriangle &T, const ShownScene &S) {
 }
 
 /// The mesh of the file \p Path, which a page sent as \p Name, and which is
-/// removed on an error. Prints what is left out.
+/// removed on an error.
 Expected<std::shared_ptr<const Mesh>> readSent(const std::string &Path,
                                                const std::string &Name) {
   // Nobody else knows the file by its path.
@@ -88,8 +87,8 @@ Expected<std::shared_ptr<const Mesh>> readSent(const std::string &Path,
     return Error{ByName(Read.error().Where), Read.error().What,
                  Read.error().Code};
   }
-  for (const MeshWarning &W : Read->Warnings)
-    printDiagnostic("splat", "warning", ByName(W.Where), W.What);
+  for (MeshWarning &W : Read->Warnings)
+    W.Where = ByName(W.Where);
   for (MeshPart &Part : Read->Parts)
     Part.File = Name;
   return std::make_shared<const Mesh>(std::move(*Read));
@@ -424,6 +423,10 @@ std::string Session::describe() const {
   for (const Layer L : Layers)
     if (isLayerOf(L, *S))
       Names.push_back(name(L));
+  Json Warnings = Json::array();
+  if (S->Surface)
+    for (const MeshWarning &W : S->Surface->Warnings)
+      Warnings.push_back(fmt::format("{}: {}", W.Where, W.What));
   Json Box = Json::array();
   if (Gaussians.size() != 0) {
     const SceneStatistics Of = statisticsOf(Gaussians);
@@ -446,6 +449,7 @@ std::string Session::describe() const {
            {"gaussians", Gaussians.size()},
            {"sh_degree", Gaussians.ShDegree},
            {"triangles", S->Surface ? S->Surface->triangles() : 0},
+           {"warnings", Warnings},
            {"box", Box},
            {"up", S->Up},
            {"device", Dev.name()},

@@ -36,7 +36,7 @@ def shows(at, *words):
     """Whether the viewer's picture is that of `splat render` with these words; gives its facts, and the report of render."""
     facts, pixels = frame(at, {"camera": VIEW, "clock": True, "compare": True})
     png_file.write("ours.png", [pixels[4 * WIDTH * y:4 * WIDTH * (y + 1)] for y in range(HEIGHT)], 4)
-    splat("render", *words, "--cameras", "c.json", "-o", "theirs.png", "--time", "--json", "r.json", "--dump-visible", "v.npz")
+    splat("render", *words, "--cameras", "c.json", "-o", "theirs.png", "--time", "--json", "r.json", "--visible", "v.npz")
     assert same("ours.png", "theirs.png"), words
     with open("r.json", encoding="utf-8") as r:
         report = json.load(r)
@@ -173,8 +173,11 @@ def check_drop():
             refused(answer := send(name, content), 400)
             assert json.loads(answer[1])["error"].startswith(name), answer
         assert scene(at)["number"] == number
-        status, text, _ = send("ball.obj", ball)
-        assert status == 200 and json.loads(text)["triangles"] == 576 and json.loads(text)["name"] == "s.ply", text
+        status, text, _ = send("ball.obj", b"mtllib none.mtl\n" + ball)
+        described = json.loads(text)
+        assert status == 200 and described["triangles"] == 576 and described["name"] == "s.ply", text
+        warning, = described["warnings"]
+        assert warning.startswith("ball.obj:1: "), warning
         shows(at, "s.ply", "--mesh", "ball.obj")
         assert " render s.ply --mesh ball.obj " in command(at)
         # An edit keeps it, and its undoing.
@@ -200,6 +203,7 @@ def check_page():
             browser.open(at.geturl())
             browser.wait("document.getElementById('status').textContent.startsWith('whole picture')")
             assert "590 triangles" in browser.value("document.getElementById('about').textContent")
+            assert browser.value("document.getElementById('warnings').textContent") == ""
             browser.key("Enter")
             said = browser.wait("document.getElementById('triangles').innerText")
             assert re.match(r"triangle \d+ of (ball\.obj|mixed\.glb, .*): corners \(", said), said

@@ -269,6 +269,7 @@ function setUp(described, kept) {
   byId('name').textContent = document.title = scene.name;
   byId('about').textContent = `${scene.gaussians.toLocaleString('en')} Gaussians, SH degree ${scene.sh_degree}, ${scene.format}` +
     `${scene.triangles ? `; ${scene.triangles.toLocaleString('en')} triangles` : ''}; on ${scene.device}`;
+  byId('warnings').textContent = scene.warnings.join('; ');
   byId('camera').replaceChildren(...scene.cameras.map((c, n) => element('option', { value: n }, c.name)),
     element('option', { value: '', disabled: '' }, 'free'));
   byId('lens').parentElement.hidden = !scene.cameras.some(c => c.lens_is_a_choice);
