@@ -12,10 +12,12 @@
 #include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -84,6 +86,20 @@ void print(const char *What, const Difference &D) {
 /// numbers.
 nlohmann::ordered_json finite(double Value) {
   return std::isfinite(Value) ? nlohmann::ordered_json(Value) : nullptr;
+}
+
+/// Of the colours outside \p Mask: what does not count is black in both. Empty
+/// where values are no finite numbers.
+std::optional<double> ssimOutside(ExactImage A, ExactImage B,
+                                  const std::vector<uint8_t> &Mask,
+                                  const Difference &D) {
+  if (D.NotFinite != 0)
+    return {};
+  for (std::size_t I = 0; I < Mask.size(); ++I)
+    if (Mask[I] != 0)
+      for (ExactImage *Picture : {&A, &B})
+        std::fill_n(Picture->Render.begin() + 3 * static_cast<long>(I), 3, 0);
+  return ssim(A.Render, B.Render, static_cast<std::size_t>(A.Width), 3);
 }
 
 Expected<Success> require(const std::string &File, const char *What,
@@ -155,6 +171,10 @@ Expected<Success> comparePictures(const CompareArguments &A) {
   if (!First->Alpha.empty() && !Second->Alpha.empty())
     print(Mask.empty() ? "alpha, all pixels" : "alpha, outside the mask",
           compare(First->Alpha, Second->Alpha, 1, Mask));
+  const auto Ssim = ssimOutside(*First, *Second, Mask, Outside);
+  if (Ssim)
+    printOut("SSIM{}: {:.5f}\n", Mask.empty() ? "" : ", outside the mask",
+             *Ssim);
   if (!A.Json.empty()) {
     nlohmann::ordered_json Report = reportHead("splat-compare");
     for (const auto &[Name, File] :
@@ -172,6 +192,8 @@ Expected<Success> comparePictures(const CompareArguments &A) {
                    {"doubtful_share", Share},
                    {"psnr_db_outside_doubtful", finite(Outside.PsnrDb)},
                    {"max_abs_outside_doubtful", finite(Outside.MaxAbs)},
+                   {"ssim_outside_doubtful",
+                    Ssim ? nlohmann::ordered_json(*Ssim) : nullptr},
                    {"not_finite", All.NotFinite},
                    {"not_finite_outside_doubtful", Outside.NotFinite}});
     if (auto Written = writeFileAtomically(A.Json, jsonText(Report, 2) + "\n");

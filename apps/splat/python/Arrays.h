@@ -13,6 +13,8 @@ using Shape = std::vector<std::size_t>;
 /// fp32, rows one after the other; what has another form is copied.
 using FloatArray = pybind11::array_t<float, pybind11::array::c_style |
                                                 pybind11::array::forcecast>;
+using DoubleArray = pybind11::array_t<double, pybind11::array::c_style |
+                                                  pybind11::array::forcecast>;
 
 /// \p Values as an array that keeps \p Owner, which has them, alive. Who writes
 /// to it writes to them. They must stay where they are.

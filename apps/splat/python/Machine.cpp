@@ -173,6 +173,7 @@ Shape sizesOf(const Camera &C) {
 /// What a picture is to have beside its colours (render/Layers.h).
 struct Layers {
   bool Depth = false, Normals = false;
+  bool Visible = false; ///< the mesh in each pixel
   DepthAs As = DepthAs::Accumulated;
   unsigned Top = 0; ///< contributors of a pixel
 
@@ -208,6 +209,20 @@ py::dict layersOf(const Layers &L, RenderResult &R, const RenderOptions &O,
   By["normals"] = L.Normals ? py::object(arrayOf(std::move(R.Normals->Render),
                                                  {Sizes[0], Sizes[1], 3}))
                             : py::none();
+  By["visible"] = py::none();
+  if (L.Visible) {
+    VisibleMesh &V = *R.MeshShown;
+    py::dict Shown;
+    const Shape Planes{V.LayerDepths.size() / V.Depth.size(), Sizes[0],
+                       Sizes[1]};
+    Shown["depth"] = arrayOf(std::move(V.Depth), Sizes);
+    Shown["triangle"] = arrayOf(std::move(V.Triangles), Sizes);
+    if (Planes[0] != 0) {
+      Shown["layer_depth"] = arrayOf(std::move(V.LayerDepths), Planes);
+      Shown["layer_triangle"] = arrayOf(std::move(V.LayerTriangles), Planes);
+    }
+    By["visible"] = std::move(Shown);
+  }
   By["contributors"] = py::none();
   if (L.Top != 0) {
     Contributors Of = topContributors(*R.Lists, O, L.Top);
@@ -221,12 +236,13 @@ py::dict layersOf(const Layers &L, RenderResult &R, const RenderOptions &O,
 
 py::tuple render(Machine &M, const SceneFile &S, const Camera &C,
                  std::shared_ptr<Mesh> Triangles, Words Given, bool Depth,
-                 bool Normals, bool Timed) {
+                 bool Normals, bool Visible, bool Timed) {
   DrawArguments A;
-  Layers Beside{Depth, Normals};
+  Layers Beside{Depth, Normals, Visible};
   EnergyArguments Asked;
   parse(std::move(Given), [&](CLI::App &App) {
     addDrawOptions(App, A);
+    addMeshPrecisionOptions(App, A.Options);
     addLightOption(App, A.Options.Light);
     addLayers(App, Beside);
     addEnergyOptions(App, Asked, "the picture");
@@ -248,6 +264,10 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C,
   if (Triangles && (Normals || Beside.needLists()))
     throw Failed(layersBesideMesh());
   placeMesh(std::move(Triangles), Drawn, A.Options);
+  valueOf(checkMeshPrecision(A.Options, ""));
+  if (Visible && !A.Options.Surface)
+    throw Failed({"", "visible shows a mesh, expected mesh", ExitCode::Usage});
+  A.Options.KeepVisible = Visible;
   valueOf(checkTransparency(A.Options, Beside.needDepths()));
   RenderPlan Plan;
   RenderResult R = M.run(Timed, [&](Launcher &L) -> Expected<RenderResult> {
@@ -346,6 +366,7 @@ void addMachine(py::module_ &M) {
     EnergyArguments Energy;
     return optionNames([&](CLI::App &App) {
       addDrawOptions(App, A);
+      addMeshPrecisionOptions(App, A.Options);
       addLightOption(App, A.Options.Light);
       addLayers(App, Beside);
       addEnergyOptions(App, Energy, "");

@@ -28,7 +28,10 @@ scores = vorion.compare(picture.image, coarse.image)
 vorion.command("render", "s.ply", cameras="mine.json", view=orbit[0].name, output="coarse.pfm", exp="table")
 said = vorion.command("compare", "one.pfm", "coarse.pfm")
 assert abs(scores["psnr_db"] - said["psnr_db"]) < 0.01 and np.isclose(scores["max_abs"], said["max_abs"]), (scores, said)
-print(f"psnr_db {scores['psnr_db']:.2f} as splat compare")
+assert 0.5 < scores["ssim"] < 1 and np.isclose(scores["ssim"], said["ssim_outside_doubtful"], atol=1e-6), (scores, said)
+half = np.arange(30)[:, None] + np.zeros(40) < 15
+assert vorion.compare(picture.image, picture.image * ~half[..., None], mask=half) == {"psnr_db": np.inf, "max_abs": 0, "ssim": 1}
+print(f"psnr_db {scores['psnr_db']:.2f} and ssim as splat compare")
 
 
 def attempt(call, *arguments, **options):

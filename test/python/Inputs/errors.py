@@ -31,7 +31,7 @@ for options in ({"support": "boxx"}, {"ztiles": 99}, {"path": "simt", "ztiles": 
                 {"pixel_unit": "x"}, {"background": (1, 2)}, {"contributors": 65}, {"depth_as": "mean"},
                 {"contributors": 1, "exp": "poly3"}, {"simt_group": 64}):
     attempt(machine.render, scene, camera, **options)
-attempt(machine.gradients, scene, camera, v_image, path="simt", simt_tile=64)
+attempt(machine.gradients, scene, camera, v_image, path="simt", tile=64)
 attempt(machine.gradients, scene, camera, v_image, path="simt", sum="rows")
 attempt(machine.gradients, scene, camera, v_image[..., 0])
 attempt(machine.gradients, scene, camera, v_image, np.zeros((1, 1)))

@@ -24,7 +24,7 @@ with open("back.json", encoding="utf-8") as f:
 assert timed.cycles == wanted["time"]["sum"]["cycles"] > 0
 assert timed.counters == wanted["total"]["counters"]
 
-for file, options in (("raster-back.npz", {}), ("simt-back.npz", {"path": "simt", "simt_tile": 8, "rules": "gsplat"}),
+for file, options in (("raster-back.npz", {}), ("simt-back.npz", {"path": "simt", "tile": 8, "rules": "gsplat"}),
                       ("points-back.npz", {"projection": "unscented"})):
     back = machine.gradients(scene, camera, up["in_v_render"], up["in_v_alpha"], **options)
     same_picture(back, file, "f32_")

@@ -56,7 +56,12 @@ for mesh in (ball, again):
     same_picture(beside, "mesh.npz")
     same(beside.depth, np.load("mesh-depth.npz")["depth"], "depth with a mesh")
     assert beside.report["mesh"] == {key: value for key, value in wanted.items() if key != "file"}
-same_picture(machine.render(scene, camera, mesh=vorion.Mesh.read("m.gltf"), path="simt"), "textured.npz")
+coarse = machine.render(scene, camera, mesh=vorion.Mesh.read("m.gltf"), path="simt", visible=True, subpixel_bits=4,
+                        mesh_depth="unorm16", filter_bits=2)
+same_picture(coarse, "textured.npz")
+seen = np.load("visible.npz")
+for name in ("depth", "triangle"):
+    same(coarse.visible[name], seen[name], f"{name} of the mesh")
 
 # A square in front of all that shows a texture, and a pane through which the rest is seen.
 empty = vorion.Scene(scene.means + [0, 0, 99], scene.log_scales, scene.quats, scene.opacity_logits, scene.sh)

@@ -115,7 +115,7 @@ def cameras(scene: Scene, path: str | os.PathLike | None = None, *, view: str | 
     path: --cameras, a file or a folder of any kind that splat reads; None for the automatic view
     view: names of views, or "all"; None for the first, or all of a motion
     distorted: of a capture, the lenses of its photographs
-    size: "WIDTHxHEIGHT", at the cameras' horizontal field of view
+    size: "WIDTHxHEIGHT" or "WIDTH", at the cameras' horizontal field of view
     orbit, frames: so many views around the scene, or along a path through the views
     up: "x", "-x", "y", "-y", "z" or "-z", for an orbit and an automatic view
     """

@@ -29,7 +29,7 @@ def command(name: str, *arguments: str | os.PathLike, **options: object) -> dict
     """Runs `splat NAME ARGUMENTS... --OPTION=VALUE...` in a process of its own, and returns its report.
 
         vorion.command("train", "capture", iterations=300, output="scene.ply")
-        vorion.command("accuracy", "scene.ply", cameras="cameras.json", at_least="45dB", out="study")
+        vorion.command("accuracy", "scene.ply", cameras="cameras.json", min_db=45, output="study")
 
     Options are named as in `splat NAME --help`, with _ for -; True is a flag, a list repeats the option. Progress goes to
     standard error. The report is what the command's --json writes; {} of a command without one, as accuracy and explore,
@@ -61,19 +61,21 @@ def command(name: str, *arguments: str | os.PathLike, **options: object) -> dict
 
 
 def compare(reference: ArrayLike, picture: ArrayLike, *, mask: ArrayLike | None = None) -> dict[str, float]:
-    """Scores of a picture, arrays (H, W, C) of values of 0 to 1: {"psnr_db", "max_abs"}, by the measure of `splat compare`.
+    """Scores of a picture, arrays (H, W, C) of values of 0 to 1: {"psnr_db", "max_abs", "ssim"}, by the measures of
+    `splat compare`.
 
-    mask: (H, W); where it is not 0, the pixel is left out
+    mask: (H, W); where it is not 0, the pixel is left out, and black in both pictures for SSIM's windows
     """
     a, b = np.asarray(reference, dtype=np.float64), np.asarray(picture, dtype=np.float64)
+    if a.ndim != 3 or a.size == 0:
+        raise _machine.UsageError(f"reference has the shape {a.shape}, expected (H, W, C)")
     if a.shape != b.shape:
         raise _machine.UsageError(f"picture has the shape {b.shape}, expected {a.shape}")
-    if mask is not None:
-        kept = np.asarray(mask) == 0
-        if kept.shape != a.shape[:2]:
-            raise _machine.UsageError(f"mask has the shape {kept.shape}, expected {a.shape[:2]}")
-        a, b = a[kept], b[kept]
-    difference = np.abs(a - b)
+    kept = np.ones(a.shape[:2], dtype=bool) if mask is None else np.asarray(mask) == 0
+    if kept.shape != a.shape[:2]:
+        raise _machine.UsageError(f"mask has the shape {kept.shape}, expected {a.shape[:2]}")
+    difference = np.abs(a - b)[kept]
     square = float(np.mean(difference ** 2))
     return {"psnr_db": float("inf") if square == 0 else -10 * float(np.log10(square)),
-            "max_abs": float(difference.max(initial=0))}
+            "max_abs": float(difference.max(initial=0)),
+            "ssim": _machine.ssim(a * kept[..., None], b * kept[..., None])}

@@ -84,6 +84,9 @@ class Picture(_Drawn):
     """(H, W, 3), where they were asked for: the sum of weights times normals, in the world's axes."""
     contributors: Contributors | None = None
     """What pixels are made of, where it was asked for."""
+    visible: dict[str, NDArray] | None = None
+    """Where it was asked for, the arrays of `splat render --visible`: "depth" and "triangle" of the mesh, (H, W), infinite
+    and -1 where it is not; of transparent triangles "layer_depth" and "layer_triangle" (N, H, W)."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -133,22 +136,24 @@ class Machine:
 
     def render(self, scene: Scene, camera: Camera, *, mesh: Mesh | None = None,
                light: tuple[float, float, float] | None = None, depth: bool = False, normals: bool = False,
-               time: bool = False, depth_as: str | None = None, contributors: int | None = None,
+               visible: bool = False, time: bool = False, depth_as: str | None = None, contributors: int | None = None,
                rules: str | None = None, support: str | None = None, path: str | None = None,
                background: tuple[float, float, float] | None = None, cutoff: float | None = None,
                exp: str | None = None, alpha_cutoff: int | None = None, depth_bits: int | None = None,
                sh_degree: int | None = None, blend: str | None = None, tile: int | None = None,
                ztiles: int | None = None, pixel_unit: str | None = None, skip_saturated: bool | None = None,
-               simt_tile: int | None = None, simt_group: int | None = None, effects: str | None = None,
+               simt_group: int | None = None, effects: str | None = None,
                near: float | None = None, projection: str | None = None, order: str | None = None,
                ray_window: int | None = None, cull_blocks: bool | None = None, energy: bool | None = None,
-               technology: str | None = None, voltage: float | None = None) -> Picture:
+               technology: str | None = None, voltage: float | None = None, subpixel_bits: int | None = None,
+               mesh_depth: str | None = None, filter_bits: int | None = None) -> Picture:
         """Draws `scene` as `camera` sees it.
 
         mesh: triangles that are drawn with the Gaussians (docs/meshes.md)
         light: direction in the world's axes in which a light shines on them; None for colours as they are
         depth: blend depths, too
         normals: blend normals, too: of each Gaussian its shortest axis, towards the camera
+        visible: keep the mesh's depth and triangle of each pixel, too
         contributors: keep so many Gaussians of each pixel, up to 64, those with the largest weights
         depth_as: what stands for a pixel's depths: "accumulated", "expected" or "median"
         time: run the machine's clock, which takes the host longer and changes no bit
@@ -163,8 +168,9 @@ class Machine:
         alpha_cutoff: smallest alpha that is blended, in 1/255: 1, 2, 4 or 8
         depth_bits: leading bits of depths that decide the order, 1 to 32
         sh_degree: leave out harmonics above it, 0 to 3
-        blend, tile, ztiles, pixel_unit, skip_saturated: of the rasterizer
-        simt_tile, simt_group: of the cores' path
+        tile: side of a tile in pixels
+        blend, ztiles, pixel_unit, skip_saturated: of the rasterizer
+        simt_group: of the cores' path
         effects: what is compiled into the kernels; "flags" compiles once for all scenes, which loops want
         near: least depth that is drawn; the rules have one
         projection: "jacobian" or "unscented", how a covariance goes through the camera
@@ -172,25 +178,28 @@ class Machine:
         ray_window: Gaussians that it finds at a time by "ray": 4, 8 or 16; changes no bit
         cull_blocks: leave out blocks of Gaussians of which a pinhole sees none; changes no bit
         energy, technology, voltage: run the clock, and count joules with a file of a process node, at volts
+        subpixel_bits, mesh_depth, filter_bits: approximations of a mesh (docs/meshes.md)
         """
         _check(scene, Scene, "scene")
         _check(camera, Camera, "camera")
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
                        "light": light, "exp": exp, "alpha_cutoff": alpha_cutoff, "depth_bits": depth_bits, "sh_degree": sh_degree,
                        "blend": blend, "tile": tile, "ztiles": ztiles, "pixel_unit": pixel_unit,
-                       "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
-                       "effects": effects, "near": near, "projection": projection, "order": order,
+                       "skip_saturated": skip_saturated, "simt_group": simt_group, "effects": effects,
+                       "near": near, "projection": projection, "order": order,
                        "ray_window": ray_window, "cull_blocks": cull_blocks, "depth_as": depth_as,
-                       "contributors": contributors, "energy": energy, "technology": technology, "voltage": voltage})
+                       "contributors": contributors, "energy": energy, "technology": technology, "voltage": voltage,
+                       "subpixel_bits": subpixel_bits, "mesh_depth": mesh_depth, "filter_bits": filter_bits})
         image, alpha, by, report = self._native.render(scene._native, camera._native, _native_mesh(mesh), asked, depth,
-                                                       normals, time)
+                                                       normals, visible, time)
         top = by["contributors"]
-        return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None)
+        return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None,
+                       by["visible"])
 
     def gradients(self, scene: Scene, camera: Camera, v_image: ArrayLike, v_alpha: ArrayLike | None = None, *,
-                  mesh: Mesh | None = None, light: tuple[float, float, float] | None = None, of: str = "activated", time: bool = False, rules: str | None = None, support: str | None = None,
-                  path: str | None = None, background: tuple[float, float, float] | None = None,
-                  cutoff: float | None = None, simt_tile: int | None = None, simt_group: int | None = None,
+                  mesh: Mesh | None = None, light: tuple[float, float, float] | None = None, of: str = "activated", time: bool = False,
+                  rules: str | None = None, support: str | None = None, path: str | None = None,
+                  background: tuple[float, float, float] | None = None, cutoff: float | None = None, tile: int | None = None, simt_group: int | None = None,
                   reciprocal: str | None = None, sum: str | None = None, simt_sums: str | None = None,
                   near: float | None = None, projection: str | None = None) -> Gradients:
         """Draws `scene` as `camera` sees it, and takes a loss's gradients back to its parameters.
@@ -207,7 +216,7 @@ class Machine:
         if of not in ("activated", "stored"):
             raise UsageError(f"of={of!r}: expected 'activated' or 'stored'")
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
-                       "simt_tile": simt_tile, "simt_group": simt_group, "reciprocal": reciprocal, "sum": sum,
+                       "tile": tile, "simt_group": simt_group, "reciprocal": reciprocal, "sum": sum,
                        "simt_sums": simt_sums, "near": near, "projection": projection, "light": light})
         if v_alpha is None:
             v_alpha = np.zeros((camera.height, camera.width), dtype=np.float32)
