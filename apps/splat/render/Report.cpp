@@ -191,7 +191,7 @@ Expected<Json> jsonReport(const RenderRecord &R) {
   auto Drawn = drawnJson(R.View, R.Options, R.Plan, R.Dev, R.Result);
   if (!Drawn)
     return Drawn;
-  Json Report = reportHead(R.Back ? "splat-gradients" : "splat-render");
+  Json Report = reportHead(R.Back ? "splat-gradients" : "splat-render", 2);
   Report.update(
       {{"scene",
         {{"file", R.ScenePath},

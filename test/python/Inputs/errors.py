@@ -93,7 +93,7 @@ attempt(vorion.Machine, set={"dram": 1})
 print("again:", machine.render(scene, camera).report["counts"]["visible"])
 
 # The signatures have every option of the commands, and no other.
-for method, names, own in ((machine.render, _machine.render_options(), {"scene", "camera", "mesh", "depth", "normals", "time"}),
+for method, names, own in ((machine.render, _machine.render_options(), {"scene", "camera", "mesh", "depth", "normals", "visible", "time"}),
                            (machine.gradients, _machine.gradient_options(),
                             {"scene", "camera", "mesh", "v_image", "v_alpha", "of", "time"})):
     named = {n.replace("-", "_") for n in names}
