@@ -50,6 +50,10 @@ class PageElement {
     const above = this.parentElement, all = above.#adopted(nodes);
     above.childNodes.splice(above.childNodes.indexOf(this) + 1, 0, ...all);
   }
+  replaceWith(...nodes) {
+    this.after(...nodes);
+    this.#leave();
+  }
   get nextElementSibling() {
     const beside = this.parentElement.children;
     return beside[beside.indexOf(this) + 1] ?? null;
