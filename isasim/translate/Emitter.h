@@ -5,8 +5,8 @@
 #include "core/Atomics.h"
 #include "translate/HeldVectors.h"
 #include "translate/HostVectors.h"
-#include "translate/Region.h"
 #include "translate/OneLane.h"
+#include "translate/Region.h"
 
 #include <deque>
 #include <functional>
