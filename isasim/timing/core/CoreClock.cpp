@@ -175,11 +175,11 @@ const DataCache::Line *CoreClock::findInL1(uint32_t Address, uint64_t Now,
 /// Asks memory for a line of the data cache that the load at \p Place wants.
 /// Returns when it comes, Turn::Never if that is not known.
 uint64_t CoreClock::load(MemorySystem &Memory, unsigned Place,
-                         CacheRequest &&R) {
+                         CacheRequest &R) {
   const uint32_t Free = L1Misses.next();
   R.From = {ToMemory.Unit, LineTicket | Free};
   const uint64_t Writes = Memory.writers().count();
-  if (const auto Then = Memory.access(ToMemory, std::move(R))) {
+  if (const auto Then = Memory.access(ToMemory, R)) {
     InFlight.add(Place, *Then);
     Fills.push_back({R.Address, *Then});
     keepForFill(Then->At);
@@ -349,11 +349,11 @@ uint64_t CoreClock::begin(MemorySystem &Memory, const OpInfo &O, unsigned Warp,
     if (L1Banks.seesDequeues())
       Below.Dequeued = {ToMemory.Unit, DequeueTicket | L1Banks.bankOf(Address)};
     if (UsesL1) {
-      const uint64_t Comes = load(Memory, Place, std::move(Below));
+      const uint64_t Comes = load(Memory, Place, Below);
       if (!LineFree.empty() && Comes != Turn::Never)
         LineFree[NextLine] = Comes;
     } else {
-      InFlight.ask(Memory, Place, std::move(Below));
+      InFlight.ask(Memory, Place, Below);
     }
   }
   // All have been looked up before the first comes.

@@ -481,7 +481,7 @@ private:
   bool waitForAccess(uint64_t Then);
   const DataCache::Line *findInL1(uint32_t Address, uint64_t Now,
                                   unsigned Place);
-  uint64_t load(MemorySystem &Memory, unsigned Place, CacheRequest &&R);
+  uint64_t load(MemorySystem &Memory, unsigned Place, CacheRequest &R);
   uint64_t leave(uint64_t Then, bool IsLoad);
   void keepForFill(uint64_t Ready);
   void lineComes(const Answer &A);

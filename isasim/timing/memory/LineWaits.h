@@ -8,7 +8,6 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace vorion::isasim {
@@ -35,10 +34,10 @@ public:
     return Sets[N].Tag;
   }
   /// Asks for a line of set \p N.
-  void ask(MemorySystem &Memory, unsigned N, CacheRequest &&R) {
+  void ask(MemorySystem &Memory, unsigned N, CacheRequest &R) {
     Set &S = Sets[N];
     R.From = {Port.Unit, S.Tag};
-    if (const auto Then = Memory.access(Port, std::move(R)))
+    if (const auto Then = Memory.access(Port, R))
       S.come(*Then);
     else
       ++S.Open;

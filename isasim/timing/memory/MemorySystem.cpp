@@ -44,7 +44,7 @@ uint32_t MemorySystem::writeCycles(const TimingConfig &Params) {
 }
 
 std::optional<Arrival> MemorySystem::access(const MemoryPort &Port,
-                                            CacheRequest &&R) {
+                                            CacheRequest &R) {
   R.Port = Port.Port;
   if (KeepsWriters && R.Op != CacheOp::Read)
     Writers.written(R.Address,

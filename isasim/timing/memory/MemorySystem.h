@@ -60,8 +60,12 @@ public:
 
   /// A request at \p Port; see SharedCache::access. Atomics are done
   /// where all who may meet at the word come together: in the L2 slice of a
-  /// device with one cluster, else in the last-level cache.
-  std::optional<Arrival> access(const MemoryPort &Port, CacheRequest &&R);
+  /// device with one cluster, else in the last-level cache. Changes \p R, of
+  /// which it makes no copy.
+  std::optional<Arrival> access(const MemoryPort &Port, CacheRequest &R);
+  std::optional<Arrival> access(const MemoryPort &Port, CacheRequest &&R) {
+    return access(Port, R);
+  }
   /// Whether a request waits in its port until a crossbar takes it. Then
   /// CacheRequest::Dequeued is answered.
   static bool reportsDequeues(const TimingConfig &Params) {

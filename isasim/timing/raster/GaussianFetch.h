@@ -55,8 +55,8 @@ public:
   void beginSet(unsigned Set) { Waits.begin(Set, Next); }
   void line(MemorySystem &Memory, unsigned Set, uint32_t Address,
             CacheOp Op = CacheOp::Read, bool Keep = false) {
-    Waits.ask(Memory, Set,
-              {.Now = Next++, .Address = Address, .Op = Op, .Keep = Keep});
+    CacheRequest R{.Now = Next++, .Address = Address, .Op = Op, .Keep = Keep};
+    Waits.ask(Memory, Set, R);
   }
   /// Reads the lines of a range, which is not empty.
   void read(MemorySystem &Memory, unsigned Set, uint32_t Address,
