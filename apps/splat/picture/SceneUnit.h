@@ -40,5 +40,8 @@ void prepareToDraw(Scene &S, const std::vector<Camera> &Cameras, Rules R,
 const Scene &preparedToDraw(const Scene &S, const std::vector<Camera> &Cameras,
                             Rules R, std::optional<float> &Near,
                             std::optional<Scene> &Copy);
+const Scene &preparedToDraw(Scene &&, const std::vector<Camera> &, Rules,
+                            std::optional<float> &,
+                            std::optional<Scene> &) = delete;
 
 } // namespace vorion::splat
