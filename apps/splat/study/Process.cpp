@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <optional>
 #include <spawn.h>
 #include <sstream>
 #include <sys/resource.h>
@@ -116,11 +117,21 @@ runProgram(std::vector<std::string> Words,
   // A group with what it starts, which ends with this process.
   posix_spawnattr_t Attributes;
   posix_spawnattr_init(&Attributes);
-  posix_spawnattr_setflags(&Attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setflags(&Attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  // A signal that ends this thread waits until the group is known to end, too.
+  sigset_t All, Before;
+  sigfillset(&All);
+  pthread_sigmask(SIG_SETMASK, &All, &Before);
+  posix_spawnattr_setsigmask(&Attributes, &Before);
   pid_t Child = 0;
   const int Problem =
       posix_spawn(&Child, Words.front().c_str(), &Actions, &Attributes,
                   pointersTo(Words).data(), pointersTo(Environment).data());
+  std::optional<ChildGroup> Ends;
+  if (Problem == 0)
+    Ends.emplace(Child);
+  pthread_sigmask(SIG_SETMASK, &Before, nullptr);
   posix_spawnattr_destroy(&Attributes);
   posix_spawn_file_actions_destroy(&Actions);
   if (Problem != 0)
@@ -130,7 +141,6 @@ runProgram(std::vector<std::string> Words,
                     "for a process",
                     Words.front(), std::strerror(Problem)),
         ExitCode::LimitReached};
-  const ChildGroup Ends(Child);
   rusage Used{};
   const int Status = waitFor(Child, GiveUp, Used);
   if (!WIFEXITED(Status))

@@ -129,9 +129,10 @@ TEST(RunProgram, ASignalEndsWhatItHasStarted) {
   if (Child == 0) {
     catchEndingSignals();
     const auto Ended = runProgram(
-        {"/bin/sh", "-c",
-         fmt::format("sleep 5 & echo $! > {0}.new && mv {0}.new {0}; wait",
-                     Started)},
+        {"/bin/sh", "-c", // in a subshell, so that the test reaps it
+         fmt::format(
+             "(sleep 5 & echo $! > {0}.new) && mv {0}.new {0}; exec sleep 5",
+             Started)},
         {}, "/dev/null", "/dev/null");
     ::_exit(Ended ? 0 : 1);
   }
