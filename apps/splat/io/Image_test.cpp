@@ -3,6 +3,7 @@
 #include "io/Npz.h"
 #include "io/TestFiles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -65,20 +66,33 @@ TEST(Image, NpzOfDoublesIsNotRounded) {
   EXPECT_EQ(I->Alpha, Alpha);
 }
 
+/// A picture that is compressed in several strips.
+Image large() {
+  Image I;
+  I.Width = 301;
+  I.Height = 700;
+  for (std::size_t K = 0; K < 3 * I.pixels(); ++K)
+    I.Render.push_back(static_cast<float>(K * K % 1009) / 1000);
+  return I;
+}
+
 TEST(Image, PngHoldsClampedBytes) {
   const TestFolder Folder;
-  ASSERT_TRUE(writeImage(Folder.path("i.png"), sample()));
-  png_image Png{};
-  Png.version = PNG_IMAGE_VERSION;
-  ASSERT_TRUE(
-      png_image_begin_read_from_file(&Png, Folder.path("i.png").c_str()));
-  EXPECT_EQ(Png.width, 3U);
-  EXPECT_EQ(Png.height, 2U);
-  Png.format = PNG_FORMAT_RGB;
-  std::vector<unsigned char> Bytes(PNG_IMAGE_SIZE(Png));
-  ASSERT_TRUE(png_image_finish_read(&Png, nullptr, Bytes.data(), 0, nullptr));
-  for (std::size_t K = 0; K < Bytes.size(); ++K)
-    EXPECT_EQ(Bytes[K], toByte(sample().Render[K])) << K;
+  for (const Image &I : {sample(), large()}) {
+    ASSERT_TRUE(writeImage(Folder.path("i.png"), I));
+    png_image Png{};
+    Png.version = PNG_IMAGE_VERSION;
+    ASSERT_TRUE(
+        png_image_begin_read_from_file(&Png, Folder.path("i.png").c_str()));
+    EXPECT_EQ(Png.width, static_cast<unsigned>(I.Width));
+    EXPECT_EQ(Png.height, static_cast<unsigned>(I.Height));
+    Png.format = PNG_FORMAT_RGB;
+    std::vector<unsigned char> Bytes(PNG_IMAGE_SIZE(Png)), Wanted(Bytes.size());
+    ASSERT_TRUE(png_image_finish_read(&Png, nullptr, Bytes.data(), 0, nullptr))
+        << Png.message;
+    std::ranges::transform(I.Render, Wanted.begin(), toByte);
+    EXPECT_EQ(Bytes, Wanted);
+  }
 }
 
 /// \p Values as a file of 8 bits has them.
@@ -149,6 +163,12 @@ TEST(Image, BytesAreRoundedAndNanIsBlack) {
   EXPECT_EQ(toByte(7), 255);
   EXPECT_EQ(toByte(0.5F), 128);
   EXPECT_EQ(toByte(std::nanf("")), 0);
+  for (int Byte = 0; Byte < 255; ++Byte) {
+    const float Tie = (static_cast<float>(Byte) + 0.5F) / 255;
+    for (const float V :
+         {std::nextafter(Tie, 0.0F), Tie, std::nextafter(Tie, 1.0F)})
+      EXPECT_EQ(toByte(V), std::lround(V * 255)) << V;
+  }
 }
 
 TEST(Image, UnknownEndingsAndUnwritablePathsAreErrors) {
