@@ -38,6 +38,16 @@ Photo averaged(std::size_t FromWidth, std::size_t FromHeight, int Width,
   Photo Out;
   Out.Width = Width;
   Out.Height = Height;
+  const auto Round = [](double Level) {
+    return static_cast<uint8_t>(std::clamp(std::lround(Level), 0L, 255L));
+  };
+  if (FromWidth == static_cast<std::size_t>(Width) &&
+      FromHeight == static_cast<std::size_t>(Height)) {
+    Out.Rgb.resize(3 * FromWidth * FromHeight);
+    for (std::size_t I = 0; I < Out.Rgb.size(); ++I)
+      Out.Rgb[I] = Round(At(I / 3, I % 3));
+    return Out;
+  }
   const std::vector<Cover> Columns =
       coversOf(FromWidth, static_cast<std::size_t>(Width));
   const std::vector<Cover> Rows =
@@ -57,8 +67,7 @@ Photo averaged(std::size_t FromWidth, std::size_t FromHeight, int Width,
           Area += Share;
         }
       for (const double S : Sum)
-        Out.Rgb.push_back(
-            static_cast<uint8_t>(std::clamp(std::lround(S / Area), 0L, 255L)));
+        Out.Rgb.push_back(Round(S / Area));
     }
   return Out;
 }

@@ -6,11 +6,11 @@
 // the window is its own adjoint. reference/Loss.h is the same in fp64.
 //
 // A group is a warp and has a channel of a tile, LANES columns by TILE_ROWS
-// rows. What the tile's windows cover is read once, into
-// local memory, zero where it is beyond the picture. For sums along rows a
-// work-item has a row, along columns a column; it adds up a run of sums
-// together, so that a value that was read serves all of them. Only the slopes go through
-// memory, in planes of whole tiles, zero beyond the picture.
+// rows; a tile at the picture's lower side has fewer rows. What the tile's
+// windows cover is read once, into local memory, zero where it is beyond the
+// picture. A work-item has a column in both sums, so that lanes access
+// neighbouring words; along columns it adds up a run of sums together, so that
+// a value that was read serves all of them. Only the slopes go through memory.
 
 // Rows of a group's tile.
 #pragma vorion choice uint TILE_ROWS
@@ -21,30 +21,27 @@
 #define SLOPES 3
 
 // Sums that a work-item adds up at a time: as many as registers hold.
-#define MOMENT_RUN 4
-#define ROW_RUN 8
 #define COLUMN_RUN 7
 // Rows that are read before the first of them is stored: the compiler does not
 // move a read over a store.
 #define PICTURE_AHEAD 2
 #define SLOPES_AHEAD 2
 #define GRADIENTS_AHEAD 3
-#if LANES % MOMENT_RUN || LANES % ROW_RUN || TILE_ROWS % COLUMN_RUN ||         \
-    TILE_ROWS % GRADIENTS_AHEAD
-#error a run of rows or columns leaves the tile
+#if TILE_ROWS % COLUMN_RUN || TILE_ROWS % GRADIENTS_AHEAD
+#error a run of rows leaves the tile
 #endif
 
-// Rows that windows cover, and more for whole warps of them; the same of
-// columns. In local memory a row's values lie together, a quantity after the
-// other, so that constants tell them apart; rows begin in banks of their own,
-// by a word more.
-#define ROWS ((TILE_ROWS + 2 * REACH + LANES - 1) / LANES * LANES)
+// Rows that windows cover, and those that are read; columns for two warps. In
+// local memory a row's values lie together, a quantity after the other, so that
+// constants tell them apart.
+#define ROWS (TILE_ROWS + 2 * REACH)
+#define ROWS_READ(ahead) ((ROWS + (ahead) - 1) / (ahead) * (ahead))
 #define COLUMNS (2 * LANES)
 #if LANES < 2 * REACH
 #error windows cover more than two tiles
 #endif
-#define READ_PITCH(quantities) ((quantities) * COLUMNS + 1)
-#define SUM_PITCH(quantities) ((quantities) * LANES + 1)
+#define READ_PITCH(quantities) ((quantities) * COLUMNS)
+#define SUM_PITCH(quantities) ((quantities) * LANES)
 
 __constant float window[REACH + 1] = {0.2660117248617943f,   0.21300553771125366f,
                                       0.1093606895097f,      0.03600077212843082f,
@@ -54,8 +51,10 @@ __constant float window[REACH + 1] = {0.2660117248617943f,   0.21300553771125366
 #define C1 1e-4f
 #define C2 9e-4f
 
-// Of a channel of a photograph, 0 to 1.
-static float photo_value(uchar level) { return (float)level / 255.0f; }
+// Of channel `c` of a photograph's pixel, 0 to 1.
+static float photo_value(uint pixel, uint c) {
+  return (float)(pixel >> 8 * c & 0xff) / 255.0f;
+}
 
 // The window of values `pitch` apart, for `run` places that follow each other,
 // the first REACH values after `v`.
@@ -73,39 +72,32 @@ window_sums(__local const float *v, uint pitch, int run, float *sums) {
   }
 }
 
-// As window_sums along a row, of v, v^2 and, unless `by` is null, v by: a
-// quantity after the other from `to` on.
+// As window_sums for one place of a row, of v, v^2 and, unless `by` is null,
+// v by: a quantity after the other from `to` on.
 static inline __attribute__((always_inline)) void
 moment_sums(__local const float *v, __local const float *by,
             __local float *to) {
-  float plain[MOMENT_RUN], square[MOMENT_RUN], mixed[MOMENT_RUN];
+  float plain = 0.0f, square = 0.0f, mixed = 0.0f;
 #pragma unroll
-  for (int j = 0; j < MOMENT_RUN + 2 * REACH; ++j) {
+  for (int j = 0; j <= 2 * REACH; ++j) {
     const float value = v[j], other = by ? by[j] : 0.0f;
-#pragma unroll
-    for (int o = 0; o < MOMENT_RUN; ++o)
-      if (j >= o && j <= o + 2 * REACH) {
-        const float weighted = window[abs(j - o - REACH)] * value;
-        plain[o] = j == o ? weighted : plain[o] + weighted;
-        square[o] = j == o ? weighted * value : fma(weighted, value, square[o]);
-        mixed[o] = j == o ? weighted * other : fma(weighted, other, mixed[o]);
-      }
+    const float weighted = window[abs(j - REACH)] * value;
+    plain = j == 0 ? weighted : plain + weighted;
+    square = j == 0 ? weighted * value : fma(weighted, value, square);
+    mixed = j == 0 ? weighted * other : fma(weighted, other, mixed);
   }
-#pragma unroll
-  for (uint o = 0; o < MOMENT_RUN; ++o) {
-    to[o] = plain[o];
-    to[LANES + o] = square[o];
-    if (by)
-      to[2 * LANES + o] = mixed[o];
-  }
+  to[0] = plain;
+  to[LANES] = square;
+  if (by)
+    to[2 * LANES] = mixed;
 }
 
-// The window along columns of sums along rows, which give way to it: only this
-// work-item reads its column.
+// The window along columns of sums along rows, which give way to it, for `count`
+// rows: only this work-item reads its column.
 static inline __attribute__((always_inline)) void
-column_sums(__local float *rows, uint quantities, uint lane) {
+column_sums(__local float *rows, uint count, uint quantities, uint lane) {
   for (uint k = 0; k < quantities; ++k)
-    for (uint row = 0; row < TILE_ROWS; row += COLUMN_RUN) {
+    for (uint row = 0; row < count; row += COLUMN_RUN) {
       __local float *own =
           rows + row * SUM_PITCH(quantities) + k * LANES + lane;
       float sums[COLUMN_RUN];
@@ -116,31 +108,38 @@ column_sums(__local float *rows, uint quantities, uint lane) {
     }
 }
 
-// Where the slopes of row y of a tile begin: LANES of a quantity, then of the
-// next. Then come those of the next of the `across` tiles.
-static uint slopes_at(uint c, uint y, uint tile, uint across) {
-  return ((c * get_num_groups(1) * TILE_ROWS + y) * across + tile) * SLOPES *
-         LANES;
+// Where the slopes of row y begin: a quantity of the `columns` of all tiles,
+// then the next.
+static uint slopes_at(uint c, uint y, uint columns) {
+  return (c * get_num_groups(1) * TILE_ROWS + y) * SLOPES * columns;
+}
+
+// Rows of the tile from row y on that are in the picture.
+static uint rows_from(uint y, uint height) {
+  return min((uint)TILE_ROWS, height - y);
 }
 
 // SSIM of every pixel and channel, and its slopes by the windows' means of x,
 // x^2 and x y, x being the picture and y the photograph. `totals` gets each
 // group's sums of |x - y| and SSIM.
 __kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
-loss_slopes(__global const float *picture, __global const uchar *photo,
+loss_slopes(__global const float *picture, __global const uint *photo,
             __global float *slopes, __global float *totals, uint width,
             uint height) {
-  __local float values[ROWS * READ_PITCH(2)];
+  __local float values[ROWS_READ(PICTURE_AHEAD) * READ_PITCH(2)];
   __local float rows[ROWS * SUM_PITCH(MOMENTS)];
   __local float parts[2 * LANES];
 
   const uint lane = get_local_id(0);
   const uint x0 = get_group_id(0) * LANES, y0 = get_group_id(1) * TILE_ROWS;
   const uint c = get_group_id(2);
+  const uint columns = get_num_groups(0) * LANES;
+  const uint own_rows = rows_from(y0, height);
+  const uint read_rows = own_rows + 2 * REACH;
 
-  for (uint first = 0; first < ROWS; first += PICTURE_AHEAD) {
+  for (uint first = 0; first < read_rows; first += PICTURE_AHEAD) {
     float own[2 * PICTURE_AHEAD];
-    uchar level[2 * PICTURE_AHEAD];
+    uint pixel[2 * PICTURE_AHEAD];
     int inside[2 * PICTURE_AHEAD];
 #pragma unroll
     for (uint k = 0; k < 2 * PICTURE_AHEAD; ++k) {
@@ -148,35 +147,32 @@ loss_slopes(__global const float *picture, __global const uchar *photo,
       const uint x = x0 + k % 2 * LANES + lane - REACH;
       const uint y = y0 + first + k / 2 - REACH;
       inside[k] = (x < width) & (y < height);
-      const uint at = 4 * (inside[k] ? y * width + x : 0) + c;
-      own[k] = picture[at];
-      level[k] = photo[at];
+      const uint at = inside[k] ? y * width + x : 0;
+      own[k] = picture[4 * at + c];
+      pixel[k] = photo[at];
     }
 #pragma unroll
     for (uint k = 0; k < 2 * PICTURE_AHEAD; ++k) {
       __local float *to =
           values + (first + k / 2) * READ_PITCH(2) + k % 2 * LANES + lane;
       to[0] = select(0.0f, own[k], inside[k]);
-      to[COLUMNS] = select(0.0f, photo_value(level[k]), inside[k]);
+      to[COLUMNS] = select(0.0f, photo_value(pixel[k], c), inside[k]);
     }
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (uint first = 0; first < ROWS; first += LANES)
-    for (uint column = 0; column < LANES; column += MOMENT_RUN) {
-      __local const float *x =
-          values + (first + lane) * READ_PITCH(2) + column;
-      __local float *to =
-          rows + (first + lane) * SUM_PITCH(MOMENTS) + column;
-      moment_sums(x, x + COLUMNS, to);
-      moment_sums(x + COLUMNS, 0, to + 3 * LANES);
-    }
+  for (uint row = 0; row < read_rows; ++row) {
+    __local const float *x = values + row * READ_PITCH(2) + lane;
+    __local float *to = rows + row * SUM_PITCH(MOMENTS) + lane;
+    moment_sums(x, x + COLUMNS, to);
+    moment_sums(x + COLUMNS, 0, to + 3 * LANES);
+  }
   barrier(CLK_LOCAL_MEM_FENCE);
-  column_sums(rows, MOMENTS, lane);
+  column_sums(rows, own_rows, MOMENTS, lane);
 
   float absolute = 0.0f, total = 0.0f;
 #pragma unroll 3
-  for (uint row = 0; row < TILE_ROWS; ++row) {
+  for (uint row = 0; row < own_rows; ++row) {
     __local const float *m = rows + row * SUM_PITCH(MOMENTS) + lane;
     const float mean_x = m[0], mean_y = m[3 * LANES];
     const float variance_x = fma(-mean_x, mean_x, m[LANES]);
@@ -191,13 +187,12 @@ loss_slopes(__global const float *picture, __global const uchar *photo,
     // Of ssim = a b / (p q), with the variances' own dependence on the mean.
     const float by_mean = 2.0f * (mean_y * (b - a) * inverse +
                                   mean_x * ssim * (1.0f / q - 1.0f / p));
-    const int inside = (x0 + lane < width) & (y0 + row < height);
+    const int inside = x0 + lane < width;
     __global float *to =
-        slopes +
-        slopes_at(c, y0 + row, get_group_id(0), get_num_groups(0)) + lane;
+        slopes + slopes_at(c, y0 + row, columns) + x0 + lane;
     to[0] = select(0.0f, by_mean, inside);
-    to[LANES] = select(0.0f, -ssim / q, inside);
-    to[2 * LANES] = select(0.0f, 2.0f * a * inverse, inside);
+    to[columns] = select(0.0f, -ssim / q, inside);
+    to[2 * columns] = select(0.0f, 2.0f * a * inverse, inside);
     __local const float *own =
         values + (row + REACH) * READ_PITCH(2) + lane + REACH;
     absolute += fabs(own[0] - own[COLUMNS]);
@@ -219,34 +214,35 @@ loss_slopes(__global const float *picture, __global const uchar *photo,
 }
 
 // dL/d(picture): `per_absolute` and `per_ssim` are the shares of one pixel's
-// channel in the loss. The sign of 0 is 0. Three floats a pixel, of all rows of
-// the tiles: what is below the picture has no meaning.
+// channel in the loss. The sign of 0 is 0. Three floats a pixel, of up to
+// GRADIENTS_AHEAD - 1 more rows, which have no meaning.
 __kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
-loss_gradient(__global const float *picture, __global const uchar *photo,
+loss_gradient(__global const float *picture, __global const uint *photo,
               __global const float *slopes, __global float *gradient,
               uint width, uint height, float per_absolute, float per_ssim) {
-  __local float values[ROWS * READ_PITCH(SLOPES)];
+  __local float values[ROWS_READ(SLOPES_AHEAD) * READ_PITCH(SLOPES)];
   __local float rows[ROWS * SUM_PITCH(SLOPES)];
 
   const uint lane = get_local_id(0);
   const uint x0 = get_group_id(0) * LANES, y0 = get_group_id(1) * TILE_ROWS;
   const uint c = get_group_id(2);
-  const uint across = get_num_groups(0);
-  const uint all_rows = get_num_groups(1) * TILE_ROWS;
+  const uint columns = get_num_groups(0) * LANES;
+  const uint own_rows = rows_from(y0, height);
+  const uint read_rows = own_rows + 2 * REACH;
 
-  for (uint first = 0; first < ROWS; first += SLOPES_AHEAD) {
+  for (uint first = 0; first < read_rows; first += SLOPES_AHEAD) {
     float slope[2 * SLOPES_AHEAD][SLOPES];
     int inside[2 * SLOPES_AHEAD];
 #pragma unroll
     for (uint k = 0; k < 2 * SLOPES_AHEAD; ++k) {
       const uint x = x0 + k % 2 * LANES + lane - REACH;
       const uint y = y0 + first + k / 2 - REACH;
-      inside[k] = (x < across * LANES) & (y < all_rows);
-      const uint at = slopes_at(c, y, x / LANES, across) + x % LANES;
-      __global const float *from = slopes + (inside[k] ? at : 0);
+      inside[k] = (x < columns) & (y < height);
+      __global const float *from =
+          slopes + (inside[k] ? slopes_at(c, y, columns) + x : 0);
 #pragma unroll
       for (uint p = 0; p < SLOPES; ++p)
-        slope[k][p] = from[p * LANES];
+        slope[k][p] = from[p * columns];
     }
 #pragma unroll
     for (uint k = 0; k < 2 * SLOPES_AHEAD; ++k)
@@ -257,38 +253,33 @@ loss_gradient(__global const float *picture, __global const uchar *photo,
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (uint first = 0; first < ROWS; first += LANES)
-    for (uint column = 0; column < LANES; column += ROW_RUN)
+  for (uint row = 0; row < read_rows; ++row)
 #pragma unroll
-      for (uint p = 0; p < SLOPES; ++p) {
-        float sums[ROW_RUN];
-        window_sums(values + (first + lane) * READ_PITCH(SLOPES) +
-                        p * COLUMNS + column,
-                    1, ROW_RUN, sums);
-#pragma unroll
-        for (uint o = 0; o < ROW_RUN; ++o)
-          rows[(first + lane) * SUM_PITCH(SLOPES) + p * LANES + column + o] =
-              sums[o];
-      }
+    for (uint p = 0; p < SLOPES; ++p) {
+      float sum;
+      window_sums(values + row * READ_PITCH(SLOPES) + p * COLUMNS + lane, 1, 1,
+                  &sum);
+      rows[row * SUM_PITCH(SLOPES) + p * LANES + lane] = sum;
+    }
   barrier(CLK_LOCAL_MEM_FENCE);
-  column_sums(rows, SLOPES, lane);
+  column_sums(rows, own_rows, SLOPES, lane);
 
   if (x0 + lane >= width)
     return;
-  for (uint row = 0; row < TILE_ROWS; row += GRADIENTS_AHEAD) {
+  for (uint row = 0; row < own_rows; row += GRADIENTS_AHEAD) {
     float own[GRADIENTS_AHEAD];
-    uchar level[GRADIENTS_AHEAD];
+    uint pixel[GRADIENTS_AHEAD];
 #pragma unroll
     for (uint o = 0; o < GRADIENTS_AHEAD; ++o) {
       const uint y = min(y0 + row + o, height - 1);
-      const uint at = 4 * (y * width + x0 + lane) + c;
-      own[o] = picture[at];
-      level[o] = photo[at];
+      const uint at = y * width + x0 + lane;
+      own[o] = picture[4 * at + c];
+      pixel[o] = photo[at];
     }
 #pragma unroll
     for (uint o = 0; o < GRADIENTS_AHEAD; ++o) {
       __local const float *s = rows + (row + o) * SUM_PITCH(SLOPES) + lane;
-      const float x = own[o], y = photo_value(level[o]);
+      const float x = own[o], y = photo_value(pixel[o], c);
       const float ssim = s[0] + 2.0f * x * s[LANES] + y * s[2 * LANES];
       const float side = x > y ? 1.0f : x < y ? -1.0f : 0.0f;
       gradient[3 * ((y0 + row + o) * width + x0 + lane) + c] =

@@ -8,14 +8,15 @@
 #pragma vorion choice effect USE_WINDOWS
 
 #include "layout.h"
+#include "record.h"
 
 typedef struct {
-  __global const splat_gaussian *records;
+  __global const splat_record *records;
   uint x, y; // of the tile's first pixel
 } tile_place;
 
 // Of the tile whose first pixel in the picture is (x, y).
-static tile_place place_of_tile(__global const splat_gaussian *records, uint x,
+static tile_place place_of_tile(__global const splat_record *records, uint x,
                                 uint y) {
 #if USE_WINDOWS
   const splat_windows w = *(__global const splat_windows *)records;

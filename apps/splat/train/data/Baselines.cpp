@@ -31,22 +31,38 @@ std::array<double, 3> meanColour(const std::vector<TrainView> &Views) {
   return Sum;
 }
 
-/// What each pixel of \p Width x \p Height is on average over the views.
-std::vector<uint8_t> meanPicture(const std::vector<TrainView> &Views, int Width,
-                                 int Height) {
-  std::vector<uint64_t> Sums;
-  for (const TrainView &V : Views) {
-    const Photo P = shrink(V.Picture, Width, Height);
-    Sums.resize(P.Rgb.size());
+/// Training pictures beside the held-out views of one size.
+struct OfSize {
+  std::vector<std::size_t> Views; ///< places of the held-out views
+  std::vector<double> Best;       ///< PSNR of the most similar picture of each
+  std::vector<uint8_t> Mean;      ///< of each byte over the training pictures
+};
+
+/// Resizes each training picture once.
+void compare(const TrainingSet &Set, OfSize &S) {
+  const Photo &Size = Set.HeldOut[S.Views.front()].Picture;
+  S.Best.assign(S.Views.size(), 0);
+  std::vector<uint64_t> Sums(Size.Rgb.size());
+  Photo Resized;
+  for (const TrainView &T : Set.Training) {
+    const bool Fits =
+        T.Picture.Width == Size.Width && T.Picture.Height == Size.Height;
+    if (!Fits)
+      Resized = shrink(T.Picture, Size.Width, Size.Height);
+    const std::vector<uint8_t> &Rgb = Fits ? T.Picture.Rgb : Resized.Rgb;
     for (std::size_t I = 0; I < Sums.size(); ++I)
-      Sums[I] += P.Rgb[I];
+      Sums[I] += Rgb[I];
+    for (std::size_t N = 0; N < S.Views.size(); ++N) {
+      const TrainView &V = Set.HeldOut[S.Views[N]];
+      S.Best[N] =
+          std::max(S.Best[N], psnrOfBytes(Rgb, V.Picture.Rgb, V.Counts));
+    }
   }
-  std::vector<uint8_t> Mean(Sums.size());
-  std::ranges::transform(Sums, Mean.begin(), [&](uint64_t Sum) {
+  S.Mean.resize(Sums.size());
+  std::ranges::transform(Sums, S.Mean.begin(), [&](uint64_t Sum) {
     return rounded(static_cast<double>(Sum) /
-                   static_cast<double>(Views.size()));
+                   static_cast<double>(Set.Training.size()));
   });
-  return Mean;
 }
 
 } // namespace
@@ -54,26 +70,31 @@ std::vector<uint8_t> meanPicture(const std::vector<TrainView> &Views, int Width,
 std::optional<Baselines> baselinesOf(const TrainingSet &Set) {
   if (Set.HeldOut.empty())
     return {};
-  Baselines B;
   const std::array<double, 3> Colour = meanColour(Set.Training);
-  std::map<std::pair<int, int>, std::vector<uint8_t>> Means; ///< by size
-  for (const TrainView &V : Set.HeldOut) {
-    const Photo &Target = V.Picture;
-    Photo Constant = Target;
-    for (std::size_t I = 0; I < Constant.Rgb.size(); ++I)
-      Constant.Rgb[I] = rounded(Colour[I % 3]);
-    double Best = 0;
-    for (const TrainView &T : Set.Training)
-      Best = std::max(
-          Best, psnrOfBytes(shrink(T.Picture, Target.Width, Target.Height).Rgb,
-                            Target.Rgb, V.Counts));
-    std::vector<uint8_t> &Mean = Means[{Target.Width, Target.Height}];
-    if (Mean.empty())
-      Mean = meanPicture(Set.Training, Target.Width, Target.Height);
-    const auto Views = static_cast<double>(Set.HeldOut.size());
-    B.Constant += psnrOfBytes(Constant.Rgb, Target.Rgb, V.Counts) / Views;
-    B.Mean += psnrOfBytes(Mean, Target.Rgb, V.Counts) / Views;
-    B.BestView += Best / Views;
+  std::map<std::pair<int, int>, OfSize> Sizes;
+  for (std::size_t I = 0; I < Set.HeldOut.size(); ++I) {
+    const Photo &P = Set.HeldOut[I].Picture;
+    Sizes[{P.Width, P.Height}].Views.push_back(I);
+  }
+  std::vector<Baselines> OfView(Set.HeldOut.size());
+  for (auto &[Size, S] : Sizes) {
+    compare(Set, S);
+    std::vector<uint8_t> Constant(S.Mean.size());
+    for (std::size_t I = 0; I < Constant.size(); ++I)
+      Constant[I] = rounded(Colour[I % 3]);
+    for (std::size_t N = 0; N < S.Views.size(); ++N) {
+      const TrainView &V = Set.HeldOut[S.Views[N]];
+      OfView[S.Views[N]] = {psnrOfBytes(Constant, V.Picture.Rgb, V.Counts),
+                            psnrOfBytes(S.Mean, V.Picture.Rgb, V.Counts),
+                            S.Best[N]};
+    }
+  }
+  Baselines B;
+  const auto Views = static_cast<double>(Set.HeldOut.size());
+  for (const Baselines &Of : OfView) {
+    B.Constant += Of.Constant / Views;
+    B.Mean += Of.Mean / Views;
+    B.BestView += Of.BestView / Views;
   }
   return B;
 }

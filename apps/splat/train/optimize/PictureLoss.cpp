@@ -7,9 +7,9 @@
 namespace vorion::splat {
 namespace {
 
-// A group of kernels/loss.cl has a channel of a tile; with its windows' reach a
-// tile has two warps of rows.
-constexpr uint32_t TileRows = 21, Channels = 3;
+// A group of kernels/loss.cl has a channel of a tile, of as many rows as local
+// memory has room for.
+constexpr uint32_t TileRows = 42, Channels = 3;
 constexpr uint64_t SlopePlanes = uint64_t{3} * Channels;
 
 constexpr uint32_t divideUp(uint32_t A, uint32_t B) { return (A + B - 1) / B; }
@@ -46,7 +46,7 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Drawn, const Photo &Target,
   const auto Pixels = static_cast<uint32_t>(Target.pixels());
   const uint32_t Across = divideUp(Width, Lanes);
   const uint32_t Down = divideUp(Height, TileRows);
-  // The gradient is written for all rows of the tiles.
+  // The gradient is written for more rows than there are.
   reserve(uint64_t{Width} * Down * TileRows, uint64_t{Across} * Down);
   HostPacked.resize(Pixels);
   for (std::size_t I = 0; I < Pixels; ++I)
