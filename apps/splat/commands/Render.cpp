@@ -359,8 +359,8 @@ Expected<Success> claimPictures(const RenderArguments &A,
 
 Expected<Success> renderAll(const RenderArguments &A, const PictureJob &J,
                             const std::vector<Camera> &Cameras) {
-  const auto R = renderSequence(J.Launch, J.Plan, J.Input.Gaussians, Cameras,
-                                J.Options, A.Overlap);
+  const auto R = renderSequence(J.Launch, J.Plan, std::move(J.Input.Gaussians),
+                                Cameras, J.Options, A.Overlap);
   clearStatus();
   if (!R) {
     showBuildLog(J.Launch);
@@ -526,20 +526,10 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return D.error();
   Launcher L(*D, A.KernelFolder, progressOf(Cameras->size()));
   fallBack(A, L, Inputs, Plan);
-  const PictureJob J{A.Scene.Path,
-                     A.Scene.Axes,
-                     A.Cameras.File,
-                     *File,
-                     A.Options,
-                     Plan,
-                     L,
-                     A.Output,
-                     A.Json,
-                     A.Pairs,
-                     A.Layers,
-                     A.Format,
-                     *Energy,
-                     *Others};
+  const PictureJob J{A.Scene.Path, A.Scene.Axes, A.Cameras.File, *File,
+                     S->size(),    A.Options,    Plan,           L,
+                     A.Output,     A.Json,       A.Pairs,        A.Layers,
+                     A.Format,     *Energy,      *Others};
   auto Rendered = isOne(A)
                       ? renderOne(A, J, Cameras->front(), Map ? &*Map : nullptr)
                   : isVideo(A) ? renderVideo(A, J, *Cameras)

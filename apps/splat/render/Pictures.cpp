@@ -58,8 +58,8 @@ static Expected<Success> addEnergy(Json &Report, const PictureJob &J,
 Expected<Json> reportOf(const PictureJob &J, const std::string &Output,
                         const Camera &C, const RenderResult &R) {
   auto Report =
-      jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input, C,
-                  J.Options, J.Plan, J.Launch.device(), R});
+      jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input,
+                  J.Gaussians, C, J.Options, J.Plan, J.Launch.device(), R});
   if (!Report)
     return Report;
   if (const auto Time = Report->find("time"); Time != Report->end())
@@ -72,7 +72,7 @@ Expected<Json> reportOf(const PictureJob &J, const std::string &Output,
 }
 
 Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C) {
-  return render(J.Launch, J.Plan, J.Input.Gaussians, C, J.Options,
+  return render(J.Launch, J.Plan, std::move(J.Input.Gaussians), C, J.Options,
                 !J.Pairs.empty());
 }
 

@@ -18,7 +18,8 @@ namespace vorion::splat {
 struct PictureJob {
   /// For reports: the scene and its views on the command line.
   std::string ScenePath, AxesChange, CameraFile;
-  const SceneFile &Input;
+  SceneFile &Input; ///< its Gaussians are given to the device
+  std::size_t Gaussians;
   const RenderOptions &Options;
   const RenderPlan &Plan;
   Launcher &Launch;

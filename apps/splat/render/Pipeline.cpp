@@ -14,6 +14,7 @@
 #include "kernels/windows.cl.h"
 #include "picture/View.h"
 #include "render/Planes.h"
+#include "vorion/support/HostMemory.h"
 
 #include <algorithm>
 #include <bit>
@@ -21,6 +22,7 @@
 #include <fmt/format.h>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace vorion::splat {
@@ -57,6 +59,11 @@ std::vector<std::size_t> bandPlanes(const EffectPlan &Plan) {
   return Planes;
 }
 
+/// Frees the memory of vectors, which an empty list would keep.
+template <typename... Vector> void release(Vector &...Values) {
+  ((Values = Vector()), ...);
+}
+
 /// Buffers for \p Geometry and \p Sh words of the Gaussians of \p S.
 GaussianBuffers allocate(Launcher &Launch, const Scene &S, std::size_t Geometry,
                          std::size_t Sh) {
@@ -81,18 +88,33 @@ GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
   return B;
 }
 
-GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
+GaussianBuffers uploadGaussians(Launcher &Launch, SceneSource From,
                                 const EffectPlan &Plan) {
+  const Scene &S = From.scene();
+  Scene *const Given = From.given();
   const std::vector<std::size_t> Planes = bandPlanes(Plan);
+  std::vector<float> Bounds;
+  if (Plan.done(effects::CullBlocks))
+    Bounds = blockBounds(S);
   const std::size_t Geometry = blockWords(S.size(), GEOMETRY_PLANES),
                     Sh = blockWords(S.size(), Planes.size());
   GaussianBuffers B = allocate(Launch, S, Geometry, Sh);
   Launch.writeInPlace("Gaussians", B.Geometry, Geometry,
                       [&](auto To) { writeGeometryBlocks(S, To); });
-  Launch.writeInPlace("colours", B.Sh, Sh,
-                      [&](auto To) { writeShBlocks(S, Planes, To); });
-  if (Plan.done(effects::CullBlocks)) {
-    const std::vector<float> Bounds = blockBounds(S);
+  if (Given)
+    release(Given->Means, Given->LogScales, Given->Quats, Given->OpacityLogits,
+            Given->MeanRests);
+  const std::size_t Stride = 3 * S.coefficients();
+  Launch.writeInPlace("colours", B.Sh, Sh, [&](auto To) {
+    writeShBlocks(S, Planes, To, [&](std::size_t First, std::size_t End) {
+      if (Given)
+        releasePages(std::as_bytes(
+            std::span(S.Sh).subspan(First * Stride, (End - First) * Stride)));
+    });
+  });
+  if (Given)
+    release(Given->Sh);
+  if (!Bounds.empty()) {
     B.Bounds = Launch.allocate("bounds of blocks", 4 * Bounds.size());
     Launch.write("bounds of blocks", B.Bounds, Bounds.data(),
                  4 * Bounds.size());

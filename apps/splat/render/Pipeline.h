@@ -82,11 +82,30 @@ struct GaussianBuffers {
                        ///< frame
 };
 
+/// A scene to be copied to the device.
+class SceneSource {
+public:
+  // NOLINTBEGIN(google-explicit-constructor): calls pass scenes
+  SceneSource(const Scene &Kept) : S(Kept) {}
+  /// The copy takes the place of \p Given: the host's memory of its parameters
+  /// is released as they are copied, and what is left has no Gaussians.
+  SceneSource(Scene &&Given) : S(Given), Own(&Given) {}
+  // NOLINTEND(google-explicit-constructor)
+
+  const Scene &scene() const { return S; }
+  /// Null if it is kept.
+  Scene *given() const { return Own; }
+
+private:
+  const Scene &S;
+  Scene *Own = nullptr;
+};
+
 /// Copies \p S to the device in planes, with harmonics up to \p ShDegree.
 GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S, int ShDegree);
 /// Copies \p S in blocks, with the bands that \p Plan evaluates, zero-filled if
 /// \p S lacks them.
-GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
+GaussianBuffers uploadGaussians(Launcher &Launch, SceneSource From,
                                 const EffectPlan &Plan);
 
 /// The buffers of one picture, in the order in which they are filled.

@@ -43,9 +43,10 @@ std::size_t blockWords(std::size_t Count, std::size_t Planes) {
 namespace {
 
 /// Writes blocks of \p Planes parameters: plane p of Gaussian i is Get(i, p).
-template <typename Function>
+/// Read(i, j) is called when the Gaussians from i to j - 1 are written.
+template <typename Function, typename Notice>
 void writeBlocks(std::size_t Count, std::size_t Planes, std::span<float> To,
-                 Function Get) {
+                 Function Get, Notice Read) {
   // Blocks of a thread at a time: half a megabyte or more.
   constexpr std::size_t Part = 1 << 12;
   inParallelParts(blocksOf(Count), Part,
@@ -56,26 +57,38 @@ void writeBlocks(std::size_t Count, std::size_t Planes, std::span<float> To,
                         for (std::size_t I = Block * LINE_WORDS;
                              I < (Block + 1) * LINE_WORDS; ++I)
                           *Word++ = I < Count ? Get(I, P) : 0;
+                    Read(First * LINE_WORDS,
+                         std::min<std::size_t>(End * LINE_WORDS, Count));
                   });
 }
 
 } // namespace
 
 void writeGeometryBlocks(const Scene &S, std::span<float> To) {
-  writeBlocks(S.size(), GEOMETRY_PLANES, To, [&](std::size_t I, std::size_t P) {
-    return P < PLANE_LOG_SCALE    ? S.Means[3 * I + P - PLANE_MEAN]
-           : P < PLANE_QUATERNION ? S.LogScales[3 * I + P - PLANE_LOG_SCALE]
-           : P < PLANE_LOGIT      ? S.Quats[4 * I + P - PLANE_QUATERNION]
-                                  : S.OpacityLogits[I];
-  });
+  writeBlocks(
+      S.size(), GEOMETRY_PLANES, To,
+      [&](std::size_t I, std::size_t P) {
+        return P < PLANE_LOG_SCALE    ? S.Means[3 * I + P - PLANE_MEAN]
+               : P < PLANE_QUATERNION ? S.LogScales[3 * I + P - PLANE_LOG_SCALE]
+               : P < PLANE_LOGIT      ? S.Quats[4 * I + P - PLANE_QUATERNION]
+                                      : S.OpacityLogits[I];
+      },
+      [](std::size_t, std::size_t) {});
 }
 
 void writeShBlocks(const Scene &S, const std::vector<std::size_t> &Planes,
-                   std::span<float> To) {
+                   std::span<float> To,
+                   const std::function<void(std::size_t, std::size_t)> &Read) {
   const std::size_t Stride = 3 * S.coefficients();
-  writeBlocks(S.size(), Planes.size(), To, [&](std::size_t I, std::size_t P) {
-    return Planes[P] < Stride ? S.Sh[I * Stride + Planes[P]] : 0.0F;
-  });
+  writeBlocks(
+      S.Sh.size() / Stride, Planes.size(), To,
+      [&](std::size_t I, std::size_t P) {
+        return Planes[P] < Stride ? S.Sh[I * Stride + Planes[P]] : 0.0F;
+      },
+      [&](std::size_t First, std::size_t End) {
+        if (Read)
+          Read(First, End);
+      });
 }
 
 /// Of the Gaussians from \p First to \p Last, by layout.h's BOUND_PLANES.

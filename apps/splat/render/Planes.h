@@ -5,6 +5,7 @@
 
 #include "scene/Scene.h"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,12 @@ std::size_t blockWords(std::size_t Count, std::size_t Planes);
 /// zero-filled if the scene lacks them. Unused entries of the last block are
 /// zeros.
 void writeGeometryBlocks(const Scene &S, std::span<float> To);
+/// \p Read, if set, is called in any thread for each range of Gaussians whose
+/// colours are not read again.
 void writeShBlocks(const Scene &S, const std::vector<std::size_t> &Planes,
-                   std::span<float> To);
+                   std::span<float> To,
+                   const std::function<void(std::size_t First, std::size_t End)>
+                       &Read = nullptr);
 
 /// The bounds of each block's Gaussians, in layout.h's BOUND_PLANES. A block
 /// with a NaN has an infinite radius.

@@ -312,7 +312,7 @@ Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
 
 /// \p S, and the mesh if there is one.
 static GaussianBuffers upload(Launcher &Launch, const RenderPlan &Plan,
-                              const Scene &S, const RenderOptions &Options) {
+                              SceneSource S, const RenderOptions &Options) {
   GaussianBuffers B = uploadGaussians(Launch, S, Plan.Effects);
   if (Plan.Effects.done(effects::Mesh))
     B.Surface = uploadMesh(Launch, *Options.Surface, Plan.Effects);
@@ -320,9 +320,9 @@ static GaussianBuffers upload(Launcher &Launch, const RenderPlan &Plan,
 }
 
 Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
-                              const Scene &S, const Camera &C,
+                              SceneSource S, const Camera &C,
                               const RenderOptions &Options, bool KeepPairs) {
-  if (auto Built = build(Launch, Plan, S); !Built)
+  if (auto Built = build(Launch, Plan, S.scene()); !Built)
     return Built.error();
   Launch.beginStage(Stage::Upload);
   return draw(Launch, Plan, upload(Launch, Plan, S, Options), C, Options,
@@ -330,11 +330,11 @@ Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
 }
 
 Expected<SequenceResult> renderSequence(Launcher &Launch,
-                                        const RenderPlan &Plan, const Scene &S,
+                                        const RenderPlan &Plan, SceneSource S,
                                         const std::vector<Camera> &Cameras,
                                         const RenderOptions &Options,
                                         bool Overlap) {
-  if (auto Built = build(Launch, Plan, S); !Built)
+  if (auto Built = build(Launch, Plan, S.scene()); !Built)
     return Built.error();
   Launch.beginStage(Stage::Upload);
   const GaussianBuffers Gaussians = upload(Launch, Plan, S, Options);

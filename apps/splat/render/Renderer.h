@@ -52,7 +52,7 @@ Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
 /// from \p Plan. Reads back only the picture, two counts and, on the path
 /// `raster`, a status per tile; with \p KeepPairs also the sorted pairs.
 Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
-                              const Scene &S, const Camera &C,
+                              SceneSource S, const Camera &C,
                               const RenderOptions &Options, bool KeepPairs);
 
 /// \name The same in steps, for a scene that stays on the device
@@ -84,7 +84,7 @@ struct SequenceResult {
 /// one (docs/rasterizer.md, "What runs at the same time"); pictures do not
 /// change.
 Expected<SequenceResult> renderSequence(Launcher &Launch,
-                                        const RenderPlan &Plan, const Scene &S,
+                                        const RenderPlan &Plan, SceneSource S,
                                         const std::vector<Camera> &Cameras,
                                         const RenderOptions &Options,
                                         bool Overlap);

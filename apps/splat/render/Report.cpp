@@ -196,7 +196,7 @@ Expected<Json> jsonReport(const RenderRecord &R) {
       {{"scene",
         {{"file", R.ScenePath},
          {"fnv1a64", *SceneHash},
-         {"gaussians", R.Input.Gaussians.size()},
+         {"gaussians", R.Gaussians},
          {"dropped_nonfinite", R.Input.Dropped},
          {"sh_degree", R.Input.Gaussians.ShDegree},
          {"format", name(R.Input.Format)},

@@ -23,7 +23,8 @@ struct BackwardRecord {
 /// The inputs and results of a picture, and of its gradients if present.
 struct RenderRecord {
   const std::string &ScenePath, &AxesChange, &CameraFile, &Output;
-  const SceneFile &Input;
+  const SceneFile &Input; ///< whose Gaussians may be gone
+  std::size_t Gaussians;
   const Camera &View;
   const RenderOptions &Options;
   const RenderPlan &Plan;

@@ -6,9 +6,11 @@
 #include "scene/UpDirection.h"
 #include "scene/formats/Formats.h"
 #include "scene/formats/Gltf.h"
+#include "scene/formats/Ply.h"
 #include "scene/formats/SogFolder.h"
 #include "vorion/support/File.h"
 #include "vorion/support/FileKind.h"
+#include "vorion/support/HostMemory.h"
 #include "vorion/support/Letters.h"
 
 #include <filesystem>
@@ -99,6 +101,9 @@ Expected<SceneFile> readScene(const std::string &Path,
   // A .splat may begin with any byte.
   if (isText(*File) && trimmed(asText(*File), " \t\r\n").starts_with('{'))
     return checked(Path, readSogJson(Path, *File, Options), Options);
+  // The only format whose files are as large as their scenes.
+  if (isPly(*File))
+    return checked(Path, parsePly(Path, *File, Options, releasePages), Options);
   return parseScene(Path, *File, Options);
 }
 

@@ -18,6 +18,7 @@
 #include "scene/formats/Formats.h"
 #include "scene/formats/Quantize.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -132,6 +133,52 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
   return L;
 }
 
+/// The rows of \p Vertex as a scene.
+void readRows(const PlyFile &File, const PlyElement &Vertex, const Layout &L,
+              Scene &S, const std::function<void(Bytes)> &Done) {
+  S.ShDegree = L.ShDegree;
+  struct Parameter {
+    std::vector<float> &To;
+    const std::vector<PlyReal> &From;
+    std::size_t Each;
+  };
+  std::vector<Parameter> Copied{{S.LogScales, L.LogScales, 3},
+                                {S.Quats, L.Quats, 4},
+                                {S.OpacityLogits, L.Opacity, 1},
+                                {S.Sh, L.Sh, 3 * S.coefficients()}};
+  if (std::ranges::none_of(L.Means, &PlyReal::IsDouble)) {
+    Copied.push_back({S.Means, L.Means, 3});
+  } else {
+    S.Means.resize(3 * Vertex.Count);
+    for (std::size_t K = 0; K < S.Means.size(); ++K)
+      S.setMean(K, loadReal(File.row(Vertex, K / 3), L.Means[K % 3]));
+  }
+  for (const auto &[To, From, Each] : Copied)
+    To.reserve(Each * Vertex.Count);
+  // The scene's memory grows as the file's shrinks: some megabytes at a time,
+  // which a processor's cache holds.
+  constexpr std::size_t AtOnce = std::size_t{1} << 15, OfThread = 1 << 12;
+  for (std::size_t Begin = 0; Begin < Vertex.Count; Begin += AtOnce) {
+    const std::size_t Count = std::min(AtOnce, Vertex.Count - Begin);
+    for (const auto &[To, From, Each] : Copied)
+      To.resize(Each * (Begin + Count));
+    inParallelParts(Count, OfThread, [&](std::size_t First, std::size_t End) {
+      for (std::size_t I = Begin + First; I < Begin + End; ++I) {
+        const Bytes Row = File.row(Vertex, I);
+        for (const auto &[To, From, Each] : Copied)
+          for (std::size_t K = 0; K < From.size(); ++K)
+            To[I * Each + K] = static_cast<float>(loadReal(Row, From[K]));
+        for (std::size_t C = 0; C < L.ColourBytes.size(); ++C)
+          S.Sh[3 * I + C] = shOfColor(byteAt(Row, L.ColourBytes[C]) / 255.0);
+      }
+    });
+    // Others were converted to rows of their own.
+    if (File.header().Encoding == PlyEncoding::LittleEndian)
+      Done(File.from(Vertex).subspan(Begin * Vertex.Stride,
+                                     Count * Vertex.Stride));
+  }
+}
+
 } // namespace
 
 std::vector<std::string> plyRestNames(int ShDegree) {
@@ -146,7 +193,13 @@ std::vector<std::string> plyRestNames(int ShDegree) {
 bool isPly(Bytes File) { return isPlyFile(File) && !isCompressedPly(File); }
 
 Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
-                             const ReadOptions & /*Options*/) {
+                             const ReadOptions &Options) {
+  return parsePly(Where, File, Options, [](Bytes) {});
+}
+
+Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
+                             const ReadOptions & /*Options*/,
+                             const std::function<void(Bytes)> &Done) {
   const auto Read = readPly(Where, File);
   if (!Read)
     return Read.error();
@@ -173,24 +226,7 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
   for (const PlyElement &E : Read->header().Elements)
     if (&E != Vertex)
       Result.Skipped.push_back("element " + E.Name);
-  Scene &S = Result.Gaussians = Scene::sized(Vertex->Count, L->ShDegree);
-  const struct {
-    std::vector<float> &To;
-    const std::vector<PlyReal> &From;
-  } Copied[] = {{S.LogScales, L->LogScales},
-                {S.Quats, L->Quats},
-                {S.OpacityLogits, L->Opacity},
-                {S.Sh, L->Sh}};
-  for (std::size_t I = 0; I < Vertex->Count; ++I) {
-    const Bytes Row = Read->row(*Vertex, I);
-    for (std::size_t A = 0; A < 3; ++A)
-      S.setMean(3 * I + A, loadReal(Row, L->Means[A]));
-    for (const auto &[To, From] : Copied)
-      for (std::size_t K = 0; K < From.size(); ++K)
-        To[I * From.size() + K] = static_cast<float>(loadReal(Row, From[K]));
-    for (std::size_t C = 0; C < L->ColourBytes.size(); ++C)
-      S.Sh[3 * I + C] = shOfColor(byteAt(Row, L->ColourBytes[C]) / 255.0);
-  }
+  readRows(*Read, *Vertex, *L, Result.Gaussians, Done);
   return Result;
 }
 

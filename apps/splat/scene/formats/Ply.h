@@ -3,12 +3,20 @@
 
 #include "scene/Drawing.h"
 #include "scene/Scene.h"
+#include "scene/SceneFile.h"
 #include "vorion/support/Expected.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace vorion::splat {
+
+/// As parsePly() of Formats.h. \p Done is called with each part of \p File
+/// that is not read again.
+Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
+                             const ReadOptions &Options,
+                             const std::function<void(Bytes)> &Done);
 
 /// The properties f_rest_* for \p ShDegree in the scene's order: a file numbers
 /// them channel by channel, the scene has them coefficient by coefficient.
