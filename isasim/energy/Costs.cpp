@@ -177,6 +177,9 @@ std::span<const EventCost> eventCosts() {
       const std::string_view Name = raster::FrontEnds[N].Name;
       add(Made, "rasterizer front end", Name,
           datapathUnits({.FrontEnd = N})[0]);
+      if (!raster::FrontEnds[N].IsOpaque)
+        add(Made, "rasterizer front end", Name,
+            datapathUnits({.FrontEnd = N})[Alpha]);
       Made.push_back({"rasterizer front end", Name, RasterBuffers,
                       "pixel of the buffer", 1});
     }
@@ -281,7 +284,7 @@ std::span<const AreaCost> areaCosts() {
         {"llc", "KiB of the llc", "SRAM bit", KibBits, Llc},
     };
     const auto Add = [&](std::string_view Part, const DatapathUnit &U,
-                         double Share) {
+                         double Share, std::string_view Event) {
       for (const auto &[Row, Count] : {std::pair<std::string_view, double>{
                                            "fp32 multiplier", U.Multipliers},
                                        {"fp32 adder", U.Adders},
@@ -291,10 +294,10 @@ std::span<const AreaCost> areaCosts() {
                                        {"choice bit", U.ChoiceBits},
                                        {"register bit", U.RegisterBits}})
         if (Count != 0)
-          Made.push_back({Part, RasterLane, Row, Share * Count});
+          Made.push_back({Part, Event, Row, Share * Count});
     };
     for (const DatapathUnit &U : datapathUnits(paperLane()))
-      Add("rasterizer lanes", U, 1);
+      Add("rasterizer lanes", U, 1, RasterLane);
     // A triangle's depth takes multipliers and adders of the power, by a choice
     // of six operands. Its edges and its test are its own
     // (docs/unification.md).
@@ -304,10 +307,19 @@ std::span<const AreaCost> areaCosts() {
     Edges.Multipliers -= DepthMultipliers;
     Edges.Adders -= DepthAdders;
     Edges.ChoiceBits += 6 * 32;
-    Add("rasterizer lanes", Edges, 1);
+    Add("rasterizer lanes", Edges, 1, RasterLane);
+    // Rays have the multipliers and adders of the power, by a choice of two
+    // operands for each, and more.
+    const DatapathUnit &Conic = datapathUnits(paperLane())[Power];
+    DatapathUnit Rays = datapathUnits(
+        {.FrontEnd = raster::frontEndRowOf(raster::VR_PRIMITIVE_RAY)})[Power];
+    Rays.Multipliers -= Conic.Multipliers;
+    Rays.Adders -= Conic.Adders;
+    Rays.ChoiceBits += (Conic.Multipliers + Conic.Adders) * 2 * 32;
+    Add("ray units", Rays, 1, "lanes that meet rays");
     // What a pair of lanes has for gradients, with an exact divider.
     for (const DatapathUnit &U : backwardUnits(0))
-      Add("backward mode", U, 0.5);
+      Add("backward mode", U, 0.5, RasterLane);
     return Made;
   }();
   return All;

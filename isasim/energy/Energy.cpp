@@ -3,9 +3,9 @@
 #include "energy/Stable.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace vorion::isasim {
 
@@ -30,25 +30,56 @@ Estimate estimate(double Value, std::vector<double> Draws) {
   return {Value, Draws[Outside], Draws[Draws.size() - 1 - Outside]};
 }
 
+using Numbers = std::vector<uint64_t>;
+
 /// What a row and, if \p Shared names it, a factor of many rows are multiplied
-/// by.
-std::vector<double> factors(const std::string &Name, double Sigma,
-                            std::string_view Shared = {},
+/// by in some samples.
+std::vector<double> factors(const Numbers &Of, const std::string &Name,
+                            double Sigma, std::string_view Shared = {},
                             double SharedSigma = 0) {
-  std::vector<double> F(EnergyModel::Draws);
+  std::vector<double> F(Of.size());
   for (size_t N = 0; N != F.size(); ++N)
-    F[N] = stable::exp(Sigma * stable::normal(Name, N) +
-                       SharedSigma * stable::normal(Shared, N));
+    F[N] = stable::exp(Sigma * stable::normal(Name, Of[N]) +
+                       SharedSigma * stable::normal(Shared, Of[N]));
   return F;
+}
+
+using RowFactors = std::vector<std::vector<double>>;
+
+RowFactors energyFactors(const Technology &T, const Numbers &Of) {
+  RowFactors All;
+  for (const TechnologyRow &R : T.Energies)
+    All.push_back(factors(Of, R.Name, R.Sigma, "all energies", T.Sigma));
+  return All;
+}
+RowFactors areaFactors(const Technology &T, const Numbers &Of) {
+  RowFactors All;
+  for (const TechnologyRow &R : T.Areas)
+    All.push_back(factors(Of, "area " + R.Name, R.Sigma, "all areas", T.Sigma));
+  return All;
+}
+
+/// Of the factors of each row; 1 where nothing moved them.
+std::vector<double> medians(const RowFactors &Rows, const Samples &By) {
+  std::vector<double> Of(Rows.size(), 1);
+  if (!By.isPrior())
+    for (size_t N = 0; N != Of.size(); ++N) {
+      std::vector<double> Sorted = Rows[N];
+      std::ranges::sort(Sorted);
+      Of[N] = Sorted[Sorted.size() / 2];
+    }
+  return Of;
 }
 
 /// A sum with its draws.
 struct Drawn {
   double Value = 0;
-  std::vector<double> Draws = std::vector<double>(EnergyModel::Draws);
+  std::vector<double> Draws;
 
-  void add(double Amount, const std::vector<double> &Factors) {
-    Value += Amount;
+  explicit Drawn(size_t Count) : Draws(Count) {}
+  void add(double Amount, const std::vector<double> &Factors,
+           double Median = 1) {
+    Value += Amount * Median;
     for (size_t N = 0; N != Draws.size(); ++N)
       Draws[N] += Amount * Factors[N];
   }
@@ -111,14 +142,36 @@ Estimate ratioOf(const std::vector<double> &Of, double OfValue,
   return estimate(ByValue > 0 ? OfValue / ByValue : 0, std::move(Draws));
 }
 
-EnergyModel::EnergyModel(Technology FromIn, double VoltsIn)
-    : From(std::move(FromIn)), Volts(VoltsIn) {
-  for (const TechnologyRow &R : From.Energies)
-    EnergyFactors.push_back(
-        factors(R.Name, R.Sigma, "all energies", From.Sigma));
-  for (const TechnologyRow &R : From.Areas)
-    AreaFactors.push_back(
-        factors("area " + R.Name, R.Sigma, "all areas", From.Sigma));
+Samples Samples::prior() {
+  Samples All;
+  All.Numbers.resize(Count);
+  std::iota(All.Numbers.begin(), All.Numbers.end(), uint64_t(0));
+  return All;
+}
+
+EnergyWork PublishedChip::work() const {
+  EnergyWork Work{Cycles, ClockMhz, {}};
+  for (const Event &E : Events)
+    Work.Events.push_back({E.Unit, E.Name, E.Count});
+  return Work;
+}
+
+EnergyModel::EnergyModel(Technology FromIn, double VoltsIn, Samples ByIn)
+    : From(std::move(FromIn)), Volts(VoltsIn), By(std::move(ByIn)),
+      EnergyFactors(energyFactors(From, By.Numbers)),
+      AreaFactors(areaFactors(From, By.Numbers)),
+      EnergyMedians(medians(EnergyFactors, By)),
+      AreaMedians(medians(AreaFactors, By)) {}
+
+std::vector<RowFactor> EnergyModel::rowFactors() const {
+  std::vector<RowFactor> All;
+  for (size_t N = 0; N != EnergyFactors.size(); ++N)
+    All.push_back({From.Energies[N].Name, false,
+                   estimate(EnergyMedians[N], EnergyFactors[N])});
+  for (size_t N = 0; N != AreaFactors.size(); ++N)
+    All.push_back(
+        {From.Areas[N].Name, true, estimate(AreaMedians[N], AreaFactors[N])});
+  return All;
 }
 
 /// By which factor a voltage may be beyond the technology's law: what the rows
@@ -126,7 +179,8 @@ EnergyModel::EnergyModel(Technology FromIn, double VoltsIn)
 static constexpr double BeyondLaw = 1.2;
 
 Expected<EnergyModel> EnergyModel::create(Technology From, unsigned ClockMhz,
-                                          std::optional<double> Volts) {
+                                          std::optional<double> Volts,
+                                          Samples By) {
   if (!Volts) {
     Volts = voltsFor(From, ClockMhz);
     if (!Volts)
@@ -148,12 +202,16 @@ Expected<EnergyModel> EnergyModel::create(Technology From, unsigned ClockMhz,
             "the frequency law of technology {} covers {:g} to {:g} V",
             *Volts, Low, High, From.Name, From.LowVolts, From.HighVolts),
         ExitCode::Usage};
-  return EnergyModel(std::move(From), *Volts);
+  return EnergyModel(std::move(From), *Volts, std::move(By));
 }
 
-Area EnergyModel::areaOf(const EnergyWork &Work) const {
+/// The area of the machine of \p Work, by the samples of the rows' factors.
+static Area areaBy(const Technology &From, const EnergyWork &Work,
+                   const RowFactors &Factors,
+                   const std::vector<double> &Medians) {
+  const size_t Count = Factors.front().size();
   std::vector<std::pair<std::string_view, Drawn>> Parts;
-  Drawn Chip;
+  Drawn Chip(Count);
   const bool HasLink = hasLink(Work);
   const double Cycles = static_cast<double>(std::max<uint64_t>(Work.Cycles, 1));
   for (const AreaCost &C : areaCosts()) {
@@ -166,22 +224,27 @@ Area EnergyModel::areaOf(const EnergyWork &Work) const {
     auto Part = std::ranges::find(Parts, C.Part,
                                   &std::pair<std::string_view, Drawn>::first);
     if (Part == Parts.end())
-      Part = Parts.insert(Parts.end(), {C.Part, Drawn()});
+      Part = Parts.insert(Parts.end(), {C.Part, Drawn(Count)});
     const size_t Row = rowOf(From.Areas, C.Row);
     const double Um2 = Number * C.Count * From.Areas[Row].Value;
-    Part->second.add(Um2, AreaFactors[Row]);
+    Part->second.add(Um2, Factors[Row], Medians[Row]);
     if (isOnChip(C.LeaksAs, HasLink))
-      Chip.add(Um2, AreaFactors[Row]);
+      Chip.add(Um2, Factors[Row], Medians[Row]);
   }
   Area A;
   for (const auto &[Name, Um2] : Parts)
     A.Parts.push_back({Name, Um2.estimated()});
   A.Chip = Chip.estimated();
+  A.ChipDraws = std::move(Chip.Draws);
   return A;
 }
 
+Area EnergyModel::areaOf(const EnergyWork &Work) const {
+  return areaBy(From, Work, AreaFactors, AreaMedians);
+}
+
 Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
-  std::array<Drawn, size_t(EnergyUnit::Count)> Units;
+  std::vector<Drawn> Units(size_t(EnergyUnit::Count), Drawn(By.Numbers.size()));
   const double Seconds =
       static_cast<double>(Work.Cycles) / (1e6 * Work.ClockMhz);
   const double Square = (Volts / From.Volts) * (Volts / From.Volts);
@@ -197,7 +260,7 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
         Units[size_t(C.Of)].add(static_cast<double>(E.Count) * C.Count *
                                     From.Energies[Row].Value * ByVolts *
                                     Picojoule,
-                                EnergyFactors[Row]);
+                                EnergyFactors[Row], EnergyMedians[Row]);
       }
   }
 
@@ -216,7 +279,7 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
             static_cast<double>(E.Count) / (1e6 * Work.ClockMhz) * C.Count *
                 From.Areas[Row].Value * Mm2PerUm2 * From.Energies[Leaks].Value *
                 Growth * Milliwatt,
-            Factors);
+            Factors, EnergyMedians[Leaks] * AreaMedians[Row]);
       }
 
   for (const EventCount &Time : Work.Events) {
@@ -233,7 +296,7 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
           ExitCode::Usage};
     const DramCosts C = costsOf(*Found);
     const std::vector<double> Factors =
-        factors("dram " + Found->Standard, Found->Sigma);
+        factors(By.Numbers, "dram " + Found->Standard, Found->Sigma);
     Drawn &Dram = Units[size_t(EnergyUnit::Dram)];
     Dram.add(static_cast<double>(Time.Count) / (1e6 * Work.ClockMhz) *
                  C.Standing * Milliwatt,
@@ -249,7 +312,7 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
   }
 
   Energy Sum;
-  Drawn Total, Chip;
+  Drawn Total(By.Numbers.size()), Chip = Total;
   const bool HasLink = hasLink(Work);
   for (size_t N = 0; N != Units.size(); ++N) {
     Total.add(Units[N]);
@@ -274,6 +337,93 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
   Sum.TotalDraws = std::move(Total.Draws);
   Sum.ChipDraws = std::move(Chip.Draws);
   return Sum;
+}
+
+namespace {
+
+/// The samples kept by a published figure: each with the probability of its
+/// likelihood, a log-normal one that is 1 where \p Ours is \p Published.
+Numbers keptBy(std::string_view Name, const Numbers &Of,
+               const std::vector<double> &Ours, double Published,
+               double Sigma) {
+  Numbers Kept;
+  for (size_t N = 0; N != Of.size(); ++N) {
+    const double Off = stable::log(Ours[N] / Published) / Sigma;
+    if (stable::uniform(Name, Of[N]) < stable::exp(-Off * Off / 2))
+      Kept.push_back(Of[N]);
+  }
+  return Kept;
+}
+
+/// Adds what \p To still needs of a block of numbers that was tried.
+void addKept(Samples &To, const Numbers &Kept, uint64_t Tried) {
+  if (To.Numbers.size() == Samples::Count)
+    return;
+  for (const uint64_t N : Kept)
+    if (To.Numbers.size() != Samples::Count)
+      To.Numbers.push_back(N);
+  To.Tried = Tried;
+}
+
+} // namespace
+
+Expected<ChipSamples> samplesGivenChip(const Technology &T) {
+  if (!T.Chip)
+    return Error{"",
+                 fmt::format("technology {} has no chip, expected a "
+                             "--technology with the area and power of one",
+                             T.Name),
+                 ExitCode::Usage};
+  const PublishedChip &C = *T.Chip;
+  const EnergyWork Work = C.work();
+  // With fewer than one in 1,000 the technology contradicts its chip.
+  constexpr uint64_t Most = 1000 * uint64_t(Samples::Count);
+  constexpr unsigned Block = Samples::Count;
+  const std::vector<double> Unmoved(T.Areas.size(), 1);
+  const auto KeptByPower = [&](const Numbers &Of) -> Expected<Numbers> {
+    if (Of.empty())
+      return Of;
+    auto Model = EnergyModel::create(T, C.ClockMhz, C.Volts, {Of, Block});
+    if (!Model)
+      return Model.error();
+    auto Spent = Model->energyOf(Work);
+    if (!Spent)
+      return Spent.error();
+    return keptBy("power of the chip", Of, Spent->ChipDraws,
+                  C.Watts * Spent->Seconds, C.PowerSigma);
+  };
+  const auto IsFull = [](const Samples &S) {
+    return S.Numbers.size() == Samples::Count;
+  };
+  ChipSamples Given;
+  for (uint64_t First = 0; First != Most; First += Block) {
+    Numbers All(Block);
+    std::iota(All.begin(), All.end(), First);
+    const Numbers Fits =
+        keptBy("area of the chip", All,
+               areaBy(T, Work, areaFactors(T, All), Unmoved).ChipDraws,
+               C.Mm2 / Mm2PerUm2, C.AreaSigma);
+    addKept(Given.Area, Fits, First + Block);
+    const auto Both = KeptByPower(Fits);
+    if (!Both)
+      return Both.error();
+    addKept(Given.Both, *Both, First + Block);
+    if (!IsFull(Given.Power)) {
+      const auto Power = KeptByPower(All);
+      if (!Power)
+        return Power.error();
+      addKept(Given.Power, *Power, First + Block);
+    }
+    if (IsFull(Given.Area) && IsFull(Given.Power) && IsFull(Given.Both))
+      return Given;
+  }
+  return Error{
+      "",
+      fmt::format("technology {} contradicts its chip: of {} samples {} agree "
+                  "with its area and {} with its power, too, expected {}",
+                  T.Name, Most, Given.Area.Numbers.size(),
+                  Given.Both.Numbers.size(), unsigned(Samples::Count)),
+      ExitCode::Usage};
 }
 
 } // namespace vorion::isasim

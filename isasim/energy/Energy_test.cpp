@@ -328,6 +328,15 @@ TEST(Technology, WrongFilesAreRefusedByTheirKeys) {
   Json Current = document();
   Current["dram"]["ddr3-1600"]["rails"][0]["idd5"] = -3;
   EXPECT_NE(refusal(Current).find("idd5 is -3"), std::string::npos);
+  Json Exact = document();
+  Exact["chip"]["watts_sigma"] = 0;
+  EXPECT_NE(refusal(Exact).find("key chip.watts_sigma is 0"),
+            std::string::npos);
+  Json Idle = document();
+  Idle["chip"]["activities"][0]["event"] = "naps";
+  EXPECT_NE(refusal(Idle).find("naps', expected one of a time report"),
+            std::string::npos)
+      << refusal(Idle);
   EXPECT_FALSE(parseTechnology("[", "mine.json"));
   EXPECT_FALSE(parseTechnology("{}", "mine.json"));
 }
@@ -373,4 +382,132 @@ TEST(Technology, WhatReportsPrintIsOnOneLine) {
   Standard["dram"]["a\nb"] = Standard["dram"]["ddr3-1600"];
   EXPECT_NE(refusal(Standard).find("key dram has 'a\\x0ab'"), std::string::npos)
       << refusal(Standard);
+}
+
+namespace {
+
+/// A technology in which only a gate has an area and only a core's cycle an
+/// energy, and a chip of a core and a cycle with twice the area and half the
+/// power that the rows say.
+Technology twoRows() {
+  Technology T = defaultTechnology();
+  for (std::vector<TechnologyRow> *Rows : {&T.Areas, &T.Energies})
+    for (TechnologyRow &R : *Rows)
+      if (R.Name != "gate" && R.Name != "core cycle")
+        R.Value = 0;
+  PublishedChip C;
+  C.Cycles = 1000;
+  C.ClockMhz = 100;
+  C.Volts = T.Volts;
+  C.Events = {{"time", "cores", 1000}, {"time", "core lanes", 16000}};
+  const auto Model = EnergyModel::create(T, C.ClockMhz, C.Volts);
+  C.Mm2 = 2 * Model->areaOf(C.work()).Chip.Value * 1e-6;
+  C.Watts = 0.5 * Model->energyOf(C.work())->ChipWatts.Value;
+  C.AreaSigma = 0.3;
+  C.PowerSigma = 0.4;
+  T.Chip = C;
+  return T;
+}
+
+double sigmaOf(const std::vector<TechnologyRow> &Rows, std::string_view Name,
+               const Technology &T) {
+  return std::hypot(row(Rows, Name).Sigma, T.Sigma);
+}
+
+/// The logarithms' mean and standard deviation.
+std::pair<double, double> logsOf(const std::vector<double> &Draws) {
+  double Sum = 0, Squares = 0;
+  for (const double D : Draws) {
+    Sum += std::log(D);
+    Squares += std::log(D) * std::log(D);
+  }
+  const double Mean = Sum / double(Draws.size());
+  return {Mean, std::sqrt(Squares / double(Draws.size()) - Mean * Mean)};
+}
+
+} // namespace
+
+/// Of a log-normal with sigma S, and a published figure f times its median with
+/// tolerance T, the logarithm is normal: its mean is ln f S^2 / (S^2 + T^2),
+/// its variance S^2 T^2 / (S^2 + T^2), and a sample is kept with the
+/// probability T / sqrt(S^2 + T^2) exp(-(ln f)^2 / 2 (S^2 + T^2)).
+TEST(GivenChip, IsTheClosedFormOfLogNormals) {
+  const Technology T = twoRows();
+  const auto Given = samplesGivenChip(T);
+  ASSERT_TRUE(Given) << Given.error().What;
+  const auto Model = [&](const Samples &By) {
+    return *EnergyModel::create(T, T.Chip->ClockMhz, T.Chip->Volts, By);
+  };
+  const EnergyWork Work = T.Chip->work();
+  const auto Expect = [&](const std::vector<double> &Draws, double Median,
+                          double Factor, double S, double Tolerance) {
+    const double Both = S * S + Tolerance * Tolerance;
+    const auto [Mean, Sigma] = logsOf(Draws);
+    EXPECT_NEAR(Mean - std::log(Median), std::log(Factor) * S * S / Both, 0.03);
+    EXPECT_NEAR(Sigma, S * Tolerance / std::sqrt(Both), 0.02);
+  };
+  const double AreaSigma = sigmaOf(T.Areas, "gate", T),
+               PowerSigma = sigmaOf(T.Energies, "core cycle", T);
+  const double Um2 = T.Chip->Mm2 / 2 * 1e6, Joules = 2 * T.Chip->Watts * 1e-5;
+  for (const Samples *By : {&Given->Area, &Given->Both})
+    Expect(Model(*By).areaOf(Work).ChipDraws, Um2, 2, AreaSigma, 0.3);
+  for (const Samples *By : {&Given->Power, &Given->Both})
+    Expect(Model(*By).energyOf(Work)->ChipDraws, Joules, 0.5, PowerSigma, 0.4);
+  const auto Kept = [](double S, double Tolerance) {
+    const double Both = S * S + Tolerance * Tolerance;
+    return Tolerance / std::sqrt(Both) *
+           std::exp(-std::log(2) * std::log(2) / 2 / Both);
+  };
+  const double Area = Kept(AreaSigma, 0.3), Power = Kept(PowerSigma, 0.4);
+  const auto Tried = [](const Samples &S) { return double(S.Tried); };
+  EXPECT_EQ(Given->Both.Numbers.size(), size_t(Samples::Count));
+  EXPECT_NEAR(Tried(Given->Area) * Area / Samples::Count, 1, 0.3);
+  EXPECT_NEAR(Tried(Given->Both) * Area * Power / Samples::Count, 1, 0.2);
+}
+
+TEST(GivenChip, MovesRowsAsFarAsTheyShareItsUncertainty) {
+  const Technology T = twoRows();
+  const EnergyModel M =
+      *EnergyModel::create(T, 100, T.Chip->Volts, samplesGivenChip(T)->Area);
+  const double S = sigmaOf(T.Areas, "gate", T);
+  const double Shift = std::log(2) * S * S / (S * S + 0.09);
+  // What all areas share is as much of the shift as of the variance.
+  const double Shared = Shift * T.Sigma * T.Sigma / (S * S);
+  const std::vector<RowFactor> Rows = M.rowFactors();
+  for (const RowFactor &R : Rows) {
+    const double Expected = !R.IsArea ? 0 : R.Row == "gate" ? Shift : Shared;
+    EXPECT_NEAR(std::log(R.Factor.Value), Expected, 0.12) << R.Row;
+    EXPECT_LT(R.Factor.Low, R.Factor.Value) << R.Row;
+  }
+  // Figures are those of the rows at their medians.
+  const auto Gate = std::ranges::find(Rows, "gate", &RowFactor::Row);
+  EXPECT_NEAR(M.areaOf(T.Chip->work()).Chip.Value,
+              T.Chip->Mm2 / 2 * 1e6 * Gate->Factor.Value, 1e-6);
+}
+
+TEST(GivenChip, OfTheDefaultIsThePrototypeAtItsFastest) {
+  const Technology &T = defaultTechnology();
+  ASSERT_TRUE(T.Chip);
+  EXPECT_EQ(T.Chip->Volts, *voltsFor(T, T.Chip->ClockMhz));
+  const EnergyWork Work = T.Chip->work();
+  for (const auto &[Event, Count] :
+       {std::pair{"cores", 8}, {"core lanes", 128}, {"rasterizers", 2}}) {
+    const auto Of = std::ranges::find_if(Work.Events, [&](const EventCount &E) {
+      return E.Unit == "time" && E.Event == Event;
+    });
+    ASSERT_NE(Of, Work.Events.end()) << Event;
+    EXPECT_EQ(Of->Count, Count * Work.Cycles) << Event;
+  }
+}
+
+TEST(GivenChip, NeedsAChipThatTheRowsDoNotContradict) {
+  Technology T = twoRows();
+  T.Chip->Mm2 *= 1000;
+  const auto Far = samplesGivenChip(T);
+  ASSERT_FALSE(Far);
+  EXPECT_NE(Far.error().What.find("contradicts its chip"), std::string::npos);
+  T.Chip.reset();
+  const auto None = samplesGivenChip(T);
+  ASSERT_FALSE(None);
+  EXPECT_NE(None.error().What.find("has no chip"), std::string::npos);
 }

@@ -2,7 +2,9 @@
 #include "energy/Published.h"
 #include "vorion/isasim/Energy.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 namespace vorion::isasim {
@@ -35,6 +37,29 @@ Json toJson(const Area &A) {
   for (const PartArea &P : A.Parts)
     Parts.push_back({{"part", P.Name}, {"um2", toJson(P.Um2)}});
   return {{"chip_um2", toJson(A.Chip)}, {"parts", Parts}};
+}
+
+Json toJson(const std::vector<RowFactor> &Rows) {
+  Json All = Json::array();
+  for (const RowFactor &R : Rows)
+    All.push_back({{"row", R.Row},
+                   {"of", R.IsArea ? "area" : "energy"},
+                   {"factor", toJson(R.Factor)}});
+  return All;
+}
+
+std::string movedRowsText(std::vector<RowFactor> Rows, size_t Count) {
+  const auto Moved = [](const RowFactor &R) {
+    return std::max(R.Factor.Value, 1 / R.Factor.Value);
+  };
+  std::ranges::sort(Rows, std::greater<>(), Moved);
+  Rows.resize(std::min(Rows.size(), Count));
+  std::string Text;
+  for (const RowFactor &R : Rows)
+    Text += fmt::format("{:<7}{:<20}{:>10.2f}{:>10.2f}{:>10.2f}\n",
+                        R.IsArea ? "area" : "energy", R.Row, R.Factor.Value,
+                        R.Factor.Low, R.Factor.High);
+  return Text;
 }
 
 /// What a chip of \p T cannot do at the voltage of \p E, as a line; empty if

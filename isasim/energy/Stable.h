@@ -36,20 +36,30 @@ inline double log(double X) {
 
 inline double pow(double X, double Y) { return exp(Y * log(X)); }
 
+/// The next of a sequence of uniform numbers from 0 to below 1, splitmix64.
+inline double nextUniform(uint64_t &State) {
+  State += 0x9e3779b97f4a7c15;
+  uint64_t Z = State;
+  Z = (Z ^ (Z >> 30)) * 0xbf58476d1ce4e5b9;
+  Z = (Z ^ (Z >> 27)) * 0x94d049bb133111eb;
+  Z ^= Z >> 31;
+  return static_cast<double>(Z >> 11) * 0x1p-53;
+}
+
 /// A draw of a normal distribution that depends on a name and a number alone:
 /// the sum of twelve uniform numbers less 6, whose 5 and 95 % lie 0.2 % off.
 inline double normal(std::string_view Name, uint64_t Number) {
   uint64_t State = fnv1a(Name) + Number * 0xd1342543de82ef95;
   double Sum = -6;
-  for (int N = 0; N != 12; ++N) { // splitmix64
-    State += 0x9e3779b97f4a7c15;
-    uint64_t Z = State;
-    Z = (Z ^ (Z >> 30)) * 0xbf58476d1ce4e5b9;
-    Z = (Z ^ (Z >> 27)) * 0x94d049bb133111eb;
-    Z ^= Z >> 31;
-    Sum += static_cast<double>(Z >> 11) * 0x1p-53;
-  }
+  for (int N = 0; N != 12; ++N)
+    Sum += nextUniform(State);
   return Sum;
+}
+
+/// A number from 0 to below 1 by the same.
+inline double uniform(std::string_view Name, uint64_t Number) {
+  uint64_t State = fnv1a(Name) + Number * 0xd1342543de82ef95;
+  return nextUniform(State);
 }
 
 } // namespace vorion::isasim::stable

@@ -1,6 +1,7 @@
 #include "energy/Costs.h"
 #include "energy/TechnologyTexts.h"
 #include "vorion/isasim/Energy.h"
+#include "vorion/support/ClockText.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
@@ -21,6 +22,8 @@ using Json = nlohmann::ordered_json;
 constexpr double MostValue = 1e9;
 /// Of a logarithm: a factor of 20 either way.
 constexpr double MostSigma = 3;
+/// Of a published figure: with less hardly any sample would agree with it.
+constexpr double LeastTolerance = 0.01;
 
 constexpr std::string_view LeakageRow = "leakage of a mm2";
 
@@ -51,6 +54,22 @@ JsonShape dramShape() {
   return JsonShape::object(Fields).closed();
 }
 
+/// What "activities" holds is as in a time report.
+JsonShape chipShape() {
+  std::vector<JsonField> Fields;
+  for (const char *Key : {"mm2", "mm2_sigma", "watts", "watts_sigma", "volts"})
+    Fields.push_back({Key, JsonShape::number()});
+  for (const char *Key : {"source", "work"})
+    Fields.push_back({Key, JsonShape::text()});
+  Fields.push_back({"cycles", JsonShape::whole(1)});
+  Fields.push_back({"clock_mhz", JsonShape::whole(1, MostClockMhz)});
+  Fields.push_back({"activities", JsonShape::list(JsonShape::object(
+                                      {{"unit", JsonShape::text()},
+                                       {"event", JsonShape::text()},
+                                       {"count", JsonShape::whole()}}))});
+  return JsonShape::object(Fields).closed();
+}
+
 JsonShape technologyShape(const Json &Document) {
   std::vector<JsonField> Energies, Areas, Dram, Speed;
   for (const std::string_view Row : energyRows())
@@ -72,7 +91,8 @@ JsonShape technologyShape(const Json &Document) {
                             {"speed", JsonShape::object(Speed).closed()},
                             {"energies", JsonShape::object(Energies).closed()},
                             {"areas", JsonShape::object(Areas).closed()},
-                            {"dram", JsonShape::object(Dram)}})
+                            {"dram", JsonShape::object(Dram)},
+                            {"chip", chipShape(), false}})
       .closed();
 }
 
@@ -137,6 +157,29 @@ public:
     }
     return D;
   }
+  PublishedChip chip(const Json &Of) {
+    PublishedChip C;
+    C.Mm2 = number(Of, "chip.", "mm2", 1e-6, MostValue);
+    C.AreaSigma = number(Of, "chip.", "mm2_sigma", LeastTolerance, MostSigma);
+    C.Watts = number(Of, "chip.", "watts", 1e-6, MostValue);
+    C.PowerSigma =
+        number(Of, "chip.", "watts_sigma", LeastTolerance, MostSigma);
+    C.Volts = number(Of, "chip.", "volts", 0.1, 10);
+    C.Source = printed(Of.at("source").get<std::string>(), "chip.source");
+    C.Cycles = Of.at("cycles").get<uint64_t>();
+    C.ClockMhz = Of.at("clock_mhz").get<unsigned>();
+    for (const Json &A : Of.at("activities")) {
+      C.Events.push_back({A["unit"].get<std::string>(),
+                          A["event"].get<std::string>(),
+                          A["count"].get<uint64_t>()});
+      const auto &[Unit, Event, Count] = C.Events.back();
+      if (Problem.empty() && !knowsEvent({Unit, Event, Count}))
+        Problem = fmt::format("key chip.activities has the event '{}: {}', "
+                              "expected one of a time report",
+                              escaped(Unit), escaped(Event));
+    }
+    return C;
+  }
   std::string Problem;
 
 private:
@@ -190,6 +233,8 @@ Expected<Technology> parseTechnology(std::string_view Text,
                     [](std::string_view) { return std::string_view("um2"); });
   for (const auto &[Standard, Of] : J["dram"].items())
     T.Dram.push_back(In.currents(Standard, Of));
+  if (const auto Chip = J.find("chip"); Chip != J.end())
+    T.Chip = In.chip(*Chip);
   if (!In.Problem.empty())
     return Error{Where, In.Problem};
   return T;

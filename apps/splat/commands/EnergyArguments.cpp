@@ -18,13 +18,16 @@ void addEnergyOptions(CLI::App &App, EnergyArguments &A,
                  "Supply voltage (implies --energy; default: what the clock "
                  "frequency needs)")
       ->option_text("V");
+  App.add_flag("--given-chip", A.GivenChip,
+               "Also estimate it given the published area and power of the "
+               "technology's chip (implies --energy)");
 }
 
 Expected<std::optional<EnergyRequest>>
 requestedEnergy(const EnergyArguments &A, std::optional<unsigned> ClockMhz) {
   if (!A.isWanted())
     return std::optional<EnergyRequest>();
-  EnergyRequest R{isasim::defaultTechnology(), A.Volts};
+  EnergyRequest R{isasim::defaultTechnology(), A.Volts, {}};
   if (!A.Technology.empty()) {
     auto Read = isasim::readTechnology(A.Technology);
     if (!Read)
@@ -36,6 +39,12 @@ requestedEnergy(const EnergyArguments &A, std::optional<unsigned> ClockMhz) {
           isasim::EnergyModel::create(R.From, ClockMhz.value_or(1), R.Volts);
       !Fits)
     return Fits.error();
+  if (A.GivenChip) {
+    auto Given = isasim::samplesGivenChip(R.From);
+    if (!Given)
+      return Given.error();
+    R.Chip = std::move(*Given);
+  }
   return std::optional(std::move(R));
 }
 

@@ -13,14 +13,15 @@ struct EnergyArguments {
   bool Energy = false;
   std::string Technology; ///< a file; empty for the default
   std::optional<double> Volts;
+  bool GivenChip = false;
 
-  /// A technology or a voltage implies --energy.
+  /// Any of the others implies --energy.
   bool isWanted() const {
-    return Energy || !Technology.empty() || Volts.has_value();
+    return Energy || !Technology.empty() || Volts.has_value() || GivenChip;
   }
 };
 
-/// Declares --energy, --technology and --voltage; \p A must outlive the
+/// Declares --energy and the options that imply it; \p A must outlive the
 /// parsing. \p What names the consumer of the energy in the help.
 void addEnergyOptions(CLI::App &App, EnergyArguments &A,
                       const std::string &What);

@@ -82,11 +82,12 @@ Expected<Success> addStage(FrameEnergy &To, const StageReport &S) {
 
 /// Nothing without the clock.
 Expected<std::optional<FrameEnergy>>
-energyOf(const std::vector<StageReport> &Stages, const EnergyRequest &R) {
+energyOf(const std::vector<StageReport> &Stages, const EnergyRequest &R,
+         const isasim::Samples &By = isasim::Samples::prior()) {
   const auto Whole = frameTime(Stages);
   if (!Whole)
     return std::optional<FrameEnergy>();
-  const auto Model = EnergyModel::create(R.From, Whole->ClockMhz, R.Volts);
+  const auto Model = EnergyModel::create(R.From, Whole->ClockMhz, R.Volts, By);
   if (!Model)
     return Model.error();
   const isasim::EnergyWork Work = workOf(*Whole);
@@ -99,6 +100,16 @@ energyOf(const std::vector<StageReport> &Stages, const EnergyRequest &R) {
       return Added.error();
   return std::optional(std::move(F));
 }
+
+/// What a frame is estimated by besides the technology.
+struct Condition {
+  const char *Key, *Name;
+  isasim::Samples isasim::ChipSamples::*By;
+};
+constexpr Condition Conditions[] = {
+    {"area", "area", &isasim::ChipSamples::Area},
+    {"power", "power", &isasim::ChipSamples::Power},
+    {"area_and_power", "area and power", &isasim::ChipSamples::Both}};
 
 /// A row of a table or of a report.
 Json shortJson(std::string_view Name, const Energy &E) {
@@ -113,6 +124,54 @@ std::string row(std::string_view Name, const Energy &E) {
   return fmt::format("{:<20}{:>12.4g}{:>12.4g} |{:>10.3g}{:>10.3g}{:>10.3g}\n",
                      Name, Milli * E.Total.Value, Milli * E.Chip.Value,
                      E.ChipWatts.Value, E.ChipWatts.Low, E.ChipWatts.High);
+}
+
+Json frameJson(const FrameEnergy &F) {
+  Json J = isasim::toJson(F.Spent, F.Model.technology());
+  J["area"] = isasim::toJson(F.Machine);
+  Json Rows = Json::array();
+  for (const StageEnergy &S : F.Stages) {
+    Json Row = shortJson(name(S.Kind), S.Spent);
+    Row["kernels"] = Json::array();
+    for (const KernelEnergy &K : S.Kernels)
+      Row["kernels"].push_back(shortJson(K.Name, K.Spent));
+    Rows.push_back(std::move(Row));
+  }
+  J["stages"] = std::move(Rows);
+  return J;
+}
+
+std::string givenRow(std::string_view Name, const FrameEnergy &F) {
+  constexpr double Mm2 = 1e-6;
+  const isasim::Estimate &W = F.Spent.ChipWatts, &A = F.Machine.Chip;
+  return fmt::format(
+      "{:<20}{:>10.3g}{:>10.3g}{:>10.3g} |{:>10.3g}{:>10.3g}{:>10.3g}{:>12}\n",
+      Name, W.Value, W.Low, W.High, Mm2 * A.Value, Mm2 * A.Low, Mm2 * A.High,
+      F.Model.samples().Tried);
+}
+
+/// What \p Prior becomes given the chip, and which rows give way.
+Expected<std::string> givenChipText(const std::vector<StageReport> &Stages,
+                                    const EnergyRequest &R,
+                                    const FrameEnergy &Prior) {
+  std::string Text =
+      fmt::format("\n{:<20}{:>10}{:>10}{:>10} |{:>10}{:>10}{:>10}{:>12}\n",
+                  "given the chip's", "chip W", "5 %", "95 %", "mm2", "5 %",
+                  "95 %", "tried");
+  Text += givenRow("nothing", Prior);
+  std::string Moved;
+  for (const Condition &C : Conditions) {
+    const auto F = energyOf(Stages, R, (*R.Chip).*C.By);
+    if (!F)
+      return F.error();
+    Text += givenRow(C.Name, **F);
+    if (C.By == &isasim::ChipSamples::Both)
+      Moved = isasim::movedRowsText((*F)->Model.rowFactors(), 8);
+  }
+  return Text +
+         fmt::format("{:<7}{:<20}{:>10}{:>10}{:>10}\n", "\nrows", "", "times",
+                     "5 %", "95 %") +
+         Moved;
 }
 
 } // namespace
@@ -135,17 +194,18 @@ Expected<Json> frameEnergyJson(const std::vector<StageReport> &Stages,
     return F.error();
   if (!*F)
     return Json();
-  Json J = isasim::toJson((*F)->Spent, Request.From);
-  J["area"] = isasim::toJson((*F)->Machine);
-  Json Rows = Json::array();
-  for (const StageEnergy &S : (*F)->Stages) {
-    Json Row = shortJson(name(S.Kind), S.Spent);
-    Row["kernels"] = Json::array();
-    for (const KernelEnergy &K : S.Kernels)
-      Row["kernels"].push_back(shortJson(K.Name, K.Spent));
-    Rows.push_back(std::move(Row));
-  }
-  J["stages"] = std::move(Rows);
+  Json J = frameJson(**F);
+  if (Request.Chip)
+    for (const Condition &C : Conditions) {
+      const auto Given = energyOf(Stages, Request, (*Request.Chip).*C.By);
+      if (!Given)
+        return Given.error();
+      Json &Of = J["given_chip"][C.Key] = frameJson(**Given);
+      const isasim::EnergyModel &Model = (*Given)->Model;
+      Of["samples"] = {{"kept", Model.samples().Numbers.size()},
+                       {"tried", Model.samples().Tried}};
+      Of["rows"] = isasim::toJson(Model.rowFactors());
+    }
   return J;
 }
 
@@ -162,8 +222,14 @@ Expected<std::string> frameEnergyText(const std::vector<StageReport> &Stages,
                   "chip mJ", "chip W", "5 %", "95 %");
   for (const StageEnergy &S : (*F)->Stages)
     Text += row(name(S.Kind), S.Spent);
-  return Text + row(What, (*F)->Spent) + "\n" +
-         isasim::toText((*F)->Spent, Request.From);
+  Text +=
+      row(What, (*F)->Spent) + "\n" + isasim::toText((*F)->Spent, Request.From);
+  if (!Request.Chip)
+    return Text;
+  const auto Given = givenChipText(Stages, Request, **F);
+  if (!Given)
+    return Given.error();
+  return Text + *Given;
 }
 
 } // namespace vorion::splat

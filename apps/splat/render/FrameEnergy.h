@@ -16,6 +16,8 @@ namespace vorion::splat {
 struct EnergyRequest {
   isasim::Technology From;
   std::optional<double> Volts; ///< default: by the technology's law
+  /// Also given the area and the power of the technology's chip.
+  std::optional<isasim::ChipSamples> Chip;
 };
 
 /// Checks that \p Request defines the clock and DRAM of the machine of \p T,
@@ -24,7 +26,7 @@ Expected<Success> checkEnergy(const TimeReport &T,
                               const EnergyRequest &Request);
 
 /// JSON of the frame: joules of each unit, stage and kernel, and the machine's
-/// area. Null without the clock. Errors are those of the energy model.
+/// area, also given a chip. Null without the clock. Errors: the energy model's.
 Expected<nlohmann::ordered_json>
 frameEnergyJson(const std::vector<StageReport> &Stages,
                 const EnergyRequest &Request);

@@ -11,6 +11,17 @@ def near(a, b):
 def energy(file):
     with open(file, encoding="utf-8") as f:
         e = json.load(f)["energy"]
+    for given in e.get("given_chip", {}).values():
+        adds_up(given)
+        assert given["samples"]["kept"] == 1000 < given["samples"]["tried"], given["samples"]
+    return adds_up(e)
+
+
+def width(figure):
+    return figure["high"] / figure["low"]
+
+
+def adds_up(e):
     near(sum(u["joules"]["value"] for u in e["units"]), e["joules"]["value"])
     near(sum(u["joules"]["value"] for u in e["units"] if u["on_chip"]), e["chip_joules"]["value"])
     near(sum(u["share"]["value"] for u in e["units"]), 1)
@@ -27,6 +38,11 @@ def energy(file):
 
 
 frame, lower, kernels = map(energy, sys.argv[1:])
+# The chip's area and power are less than the technology's, and known better.
+both = frame["given_chip"]["area_and_power"]
+assert both["area"]["chip_um2"]["high"] < frame["area"]["chip_um2"]["low"]
+assert width(both["chip_watts"]) < width(frame["chip_watts"])
+assert width(frame["given_chip"]["area"]["chip_watts"]) > width(both["chip_watts"])
 assert frame["joules"]["value"] > lower["joules"]["value"]
 assert frame["chip_joules"]["value"] < kernels["chip_joules"]["value"]
 assert {u["unit"] for u in frame["units"]} >= {"rasterizer lanes", "rasterizer buffers"}

@@ -41,6 +41,39 @@ struct DramCurrents {
   std::string Source;
 };
 
+/// An event, named as in the activities of a time report.
+struct EventCount {
+  std::string_view Unit, Event;
+  uint64_t Count = 0;
+};
+
+/// Activities of a run.
+struct EnergyWork {
+  uint64_t Cycles = 0;
+  unsigned ClockMhz = 1;
+  std::vector<EventCount> Events;
+};
+
+/// A chip of a technology whose area and power were published. Tolerances are
+/// standard deviations of the logarithm of the published figure.
+struct PublishedChip {
+  double Mm2 = 0, AreaSigma = 0;
+  double Watts = 0, PowerSigma = 0;
+  double Volts = 0; ///< the supply at which it has that power
+  std::string Source;
+  /// The machine, and the work during which it has that power.
+  uint64_t Cycles = 0;
+  unsigned ClockMhz = 1;
+  struct Event {
+    std::string Unit, Name;
+    uint64_t Count = 0;
+  };
+  std::vector<Event> Events;
+
+  /// Valid as long as the chip.
+  EnergyWork work() const;
+};
+
 /// The contents of a technology file.
 struct Technology {
   std::string Name;
@@ -57,6 +90,7 @@ struct Technology {
   double LeakageVolts = 0;
   std::vector<TechnologyRow> Energies, Areas;
   std::vector<DramCurrents> Dram;
+  std::optional<PublishedChip> Chip;
 };
 
 /// Reads a technology file. A missing row, an unknown key and an invalid number
@@ -74,20 +108,8 @@ struct Estimate {
   double Value = 0, Low = 0, High = 0;
 };
 
-/// An event, named as in the activities of a time report.
-struct EventCount {
-  std::string_view Unit, Event;
-  uint64_t Count = 0;
-};
 /// Whether the model has a cost for the event, which may be 0.
 bool knowsEvent(const EventCount &E);
-
-/// Activities of a run.
-struct EnergyWork {
-  uint64_t Cycles = 0;
-  unsigned ClockMhz = 1;
-  std::vector<EventCount> Events;
-};
 
 /// Energy of a part of the machine.
 struct UnitEnergy {
@@ -120,33 +142,69 @@ struct PartArea {
 struct Area {
   std::vector<PartArea> Parts;
   Estimate Chip; ///< um^2
+  std::vector<double> ChipDraws;
+};
+
+/// Samples of a technology's parameters. A parameter's sample depends on its
+/// name and the number alone.
+struct Samples {
+  static constexpr unsigned Count = 1000;
+
+  std::vector<uint64_t> Numbers; ///< as many as \c Count
+  uint64_t Tried = Count;        ///< of which these were kept
+
+  /// By the technology alone: all numbers from 0.
+  static Samples prior();
+  bool isPrior() const { return Tried == Numbers.size(); }
+};
+
+/// Samples given what was published of a technology's chip. A sample is kept
+/// with its likelihood as probability, so that all that are kept have the same
+/// weight.
+struct ChipSamples {
+  Samples Area, Power, Both; ///< given one figure alone, or both
+};
+/// Errors: the technology has no chip, or hardly any sample agrees with it.
+Expected<ChipSamples> samplesGivenChip(const Technology &T);
+
+/// The factor of a row's value over the samples: how far a condition moves it.
+struct RowFactor {
+  std::string_view Row;
+  bool IsArea = false;
+  Estimate Factor; ///< the value is the median
 };
 
 /// A technology at a voltage.
 class EnergyModel {
 public:
-  static constexpr unsigned Draws = 1000;
-
   /// \p Volts: default is the voltage for \p ClockMhz by the technology's
   /// frequency law. Errors: no such voltage, or a voltage far outside the law.
   static Expected<EnergyModel> create(Technology From, unsigned ClockMhz,
-                                      std::optional<double> Volts);
+                                      std::optional<double> Volts,
+                                      Samples By = Samples::prior());
 
   /// Error: the technology has no currents for the machine's DRAM.
   Expected<Energy> energyOf(const EnergyWork &Work) const;
   /// Configuration of the machine.
   Area areaOf(const EnergyWork &Work) const;
 
+  /// Of all rows, over the technology's values.
+  std::vector<RowFactor> rowFactors() const;
+
   double volts() const { return Volts; }
   const Technology &technology() const { return From; }
+  const Samples &samples() const { return By; }
 
 private:
-  EnergyModel(Technology FromIn, double VoltsIn);
+  EnergyModel(Technology FromIn, double VoltsIn, Samples ByIn);
 
   Technology From;
   double Volts;
+  Samples By;
   /// Factor of the row's value, by row and sample.
   std::vector<std::vector<double>> EnergyFactors, AreaFactors;
+  /// The value of a figure: with all rows at the median of their factors.
+  std::vector<double> EnergyMedians, AreaMedians;
 };
 
 /// The maximum clock frequency at a voltage by the frequency law, and the
@@ -157,8 +215,11 @@ std::optional<double> voltsFor(const Technology &T, double Mhz);
 nlohmann::ordered_json toJson(const Estimate &E);
 nlohmann::ordered_json toJson(const Energy &E, const Technology &T);
 nlohmann::ordered_json toJson(const Area &A);
+nlohmann::ordered_json toJson(const std::vector<RowFactor> &Rows);
 /// A table with a line of sums.
 std::string toText(const Energy &E, const Technology &T);
+/// The \p Count rows that are moved farthest from 1, as a line each.
+std::string movedRowsText(std::vector<RowFactor> Rows, size_t Count);
 /// The rows and the cost of each event, as Markdown tables (docs/energy.md).
 std::string energyMarkdown(const Technology &T);
 
