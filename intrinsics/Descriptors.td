@@ -10,6 +10,19 @@ def VxGaussian : Descriptor<"vx_gaussian", [
     DescField<"tag", "u32", 1, "Gaussian index, with VR_INTERSECT if it spans several tiles">
   ], "One projected Gaussian as the rasterizer reads it.">;
 
+def VxRayGaussian : Descriptor<"vx_ray_gaussian", [
+    DescField<"first", "u32", 1, "first pixel of the box: column, and row times 2^16">,
+    DescField<"last", "u32", 1, "last pixel of the box, likewise">,
+    DescField<"mean", "f32", 2, "where the ray through the centre passes, px from the centre of pixel first">,
+    DescField<"factor", "f32", 3, "a, b, c: (a dx + b dy)^2 + (c dy)^2 is the square of the distance at which parallel rays pass the centre, in standard deviations">,
+    DescField<"slope", "f32", 2, "of the plane l, which is 1 at the mean, along columns and rows, 1/px">,
+    DescField<"near", "f32", 1, "1 over the square of the distance of the point where all rays begin; 0 for parallel rays, and for discs">,
+    DescField<"opacity", "f32", 1, "0 to 1">,
+    DescField<"color", "f32", 3, "linear r, g, b">,
+    DescField<"tag", "u32", 1, "Gaussian index, with VR_INTERSECT if it spans several tiles">,
+    DescField<"unused", "u32", 1, "not read: a record is a line of memory">
+  ], "One Gaussian as rays meet it (docs/primitives.md#rays).">;
+
 def VxTriangle : Descriptor<"vx_triangle", [
     DescField<"a", "i32", 3, "of each edge: step of its function from a pixel to the next of the row">,
     DescField<"b", "i32", 3, "step from a row to the next">,

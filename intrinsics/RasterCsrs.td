@@ -29,7 +29,8 @@ def VR_OPTIONS : BankCsr<"vr_options", 0x7C4, "Datapath options."> {
                 CsrField<"stop_at_equal", 4, 1, "0 saturated at T' < cutoff (INRIA), 1 at T' <= cutoff (gsplat)">,
                 CsrField<"skip_saturated", 5, 1, "dispatch gives no lane slot to saturated pixels">,
                 CsrField<"blend", 6, 2, "blend arithmetic, VR_BLEND_*; docs/abi.md#rasterizer">,
-                CsrField<"alpha_cutoff", 8, 2, "smallest alpha that is blended: 2^value / 255">];
+                CsrField<"alpha_cutoff", 8, 2, "smallest alpha that is blended: 2^value / 255">,
+                CsrField<"degree4", 10, 1, "rays: the falloff is exp(-q^2 / 18), not exp(-q / 2)">];
 }
 def VR_CUTOFF : BankCsr<"vr_cutoff", 0x7C5, "Transmittance cut-off, float in [0, 1).">;
 def VR_GAUSSIANS : BankCsr<"vr_gaussians", 0x7C6, "Address of the records, vx_gaussian or what vr_mode.primitive says, 16-byte aligned.">;
@@ -139,7 +140,7 @@ def : Constant<"VR_BAD_COUNT", 4, "vr_count above VR_MAX_COUNT, or more pushes t
 def : Constant<"VR_NAN", 5, "A descriptor holds a NaN.">;
 def : Constant<"VR_BAD_MODE", 6, "vr_mode, vr_options or vr_ztile requests what this machine does not support.">;
 def : Constant<"VR_BAD_CUTOFF", 7, "vr_cutoff is not in [0, 1).">;
-def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over is requested for a command that drains, has pushed descriptors, keeps last contributors or is backward.">;
+def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over is requested for a command that drains, has pushed descriptors, keeps last contributors, is backward or has other records than vx_gaussian.">;
 def : Constant<"VR_TAIL_WHOLE", 65536, "vr_tail_share of a whole tile.">;
 def : Constant<"VR_INTERSECT", 0x80000000, "Bit of a list entry and of a record's tag: the Gaussian spans several tiles.">;
 def : Constant<"VR_MAX_COUNT", 0x1000000, "Largest list of one command.">;

@@ -21,17 +21,31 @@ class LaneUnit<string prefix, string choice, int number, string doc>
   string Source = ?;                  // or derivation
 }
 
+// A pipelined divider. It and an fp32 multiplier differ in what is between
+// exponents and rounding: there a product of 24 x 24 bits, here a row of 24 bits
+// for each of the 26 bits of the quotient, one before the point that may be 0 and
+// one to round by, 3 or 4 a cycle. A row has a choice between remainder and
+// difference (the bit above a row's needs no subtraction: if it is set, the row's
+// succeeds). Between stages: remainder, divisor, exponent, half the quotient on
+// average.
+defvar DividerLatency = 8;
+defvar DividerProductBits = !sub(0, !mul(24, 24)); // with a multiplier
+defvar DividerRowBits = !mul(26, 24);              // adder bits, and choice bits
+defvar DividerRegisterBits = !mul(!sub(DividerLatency, 1), !add(24, 24, 8, 13));
+
 // vr_mode.primitive: what decides whether a primitive covers a pixel, and with
-// which alpha or depth (docs/primitives.md). The conic's body is reach() of
-// isasim/raster/DatapathParts.h; of those whose primitives are opaque, Surfaces.h.
+// which alpha or depth (docs/primitives.md). Bodies: Blended.h of
+// isasim/raster/ for primitives that are blended, Surfaces.h for opaque ones.
 class FrontEndUnit<string choice, int number, string record, string doc>
     : LaneUnit<"VR_PRIMITIVE_", choice, number, "Kind of primitive: " # doc # "."> {
   string Record = record;             // a descriptor
+  bit IsOpaque = 1;                   // a pixel has the nearest, and blends nothing
   int PixelWords = 4;                 // of the pixel buffer, in a render
   int OutputWords = 4;                // of a pixel at vr_output
 }
 def : FrontEndUnit<"conic", 0, "vx_gaussian", "the exponential of a quadratic form"> {
   let Report = "power";
+  let IsOpaque = 0;
   let Multipliers = 7;
   let Adders = 4;
   let Source = "first stage [paper]; a dx dx, c dy dy, b dx dy and the half are 7 multiplications, dx, dy and two sums 4 additions";
@@ -46,13 +60,23 @@ def : FrontEndUnit<"triangle", 1, "vx_triangle", "three edges and a plane of dep
   let AdderBits = !mul(3, 2, 40);
   let Source = "a of 32 bits times a column of 6, b times a row, three times, and two sums of 40; depth takes 2 multiplications and 2 additions, the test a comparison; ours";
 }
+def : FrontEndUnit<"ray", 3, "vx_ray_gaussian", "a Gaussian in 3D that the pixel's ray meets"> {
+  let IsOpaque = 0;
+  let Latency = !add(2, DividerLatency);
+  let Multipliers = 12;
+  let Adders = 7;
+  let ProductBits = DividerProductBits;
+  let AdderBits = DividerRowBits;
+  let ChoiceBits = !add(DividerRowBits, 32);
+  let RegisterBits = DividerRegisterBits;
+  let Source = "a dx, b dy, c dy, their two squares, the plane's two steps and its square, the weight, the half and the square of degree 4 are 11 multiplications, dx, dy and five sums 7 additions, in two cycles; a divider as VR_RECIPROCAL_EXACT; a choice of degrees; ours";
+}
 // Numbers that docs/primitives.md gives to kinds which are not built.
 class ReservedFrontEndNumber<int number, string choice> {
   int Value = number;
   string Choice = choice;
 }
 def : ReservedFrontEndNumber<2, "wide-conic">;
-def : ReservedFrontEndNumber<3, "ray">;
 def : ReservedFrontEndNumber<4, "surfel">;
 
 // vr_options.exp. Its bodies: ExpVector.h and ScalarUnits.h of isasim/raster/.
@@ -149,18 +173,12 @@ class IteratedReciprocalUnit<string choice, int number, string bound, int latenc
   let Source = "three multipliers and three adders [paper], the fourth multiplication in the pair's spare multiplier";
 }
 
-// An fp32 multiplier and a divider differ in what is between exponents and
-// rounding: there a product of 24 x 24 bits, here a row of 24 bits for each of
-// the 26 bits of the quotient, one before the point that may be 0 and one to
-// round by, 3 or 4 a cycle. A row has a choice between remainder and difference
-// (the bit above a row's needs no subtraction: if it is set, the row's succeeds).
-def : ReciprocalUnit<"exact", 0, "0x1p-23", 8, "T / (1 - alpha), correctly rounded"> {
+def : ReciprocalUnit<"exact", 0, "0x1p-23", DividerLatency, "T / (1 - alpha), correctly rounded"> {
   let Multipliers = 1;
-  let ProductBits = !sub(0, !mul(24, 24));
-  let AdderBits = !mul(26, 24);
-  let ChoiceBits = !mul(26, 24);
-  // Between stages: remainder, divisor, exponent, half the quotient on average.
-  let RegisterBits = !mul(!sub(8, 1), !add(24, 24, 8, 13));
+  let ProductBits = DividerProductBits;
+  let AdderBits = DividerRowBits;
+  let ChoiceBits = DividerRowBits;
+  let RegisterBits = DividerRegisterBits;
   let Source = "a divider, an fp32 multiplier with 26 subtractions of 24 bits in place of the product, and registers; ours";
 }
 def : IteratedReciprocalUnit<"even-left", 1, "0.5462", 6, "Taylor to alpha^4 below 0.5; above, two Newton-Raphson steps from 8 entries evenly spaced in alpha, exact at their left ends">;

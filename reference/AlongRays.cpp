@@ -15,6 +15,9 @@
 namespace vorion::reference {
 namespace {
 
+/// Two depths that are rounded to fp32 may change places within this.
+constexpr double DepthRounding = 0x1p-23;
+
 /// A Gaussian in the axes of the camera's pose.
 struct Body {
   glm::dvec3 Mean;
@@ -22,7 +25,7 @@ struct Body {
   glm::dmat3 Axes;    ///< the same, as long as its deviations
   glm::dvec3 Squares; ///< of the deviations
   double Widest;      ///< the largest of these
-  double Deviation;   ///< where alpha is the least that is blended, squared
+  double Deviation;   ///< where alpha is the least that may be blended, squared
 };
 
 /// v^T M^-1 v of a symmetric M, its entries being xx, xy, yy.
@@ -106,7 +109,8 @@ public:
       B.Squares = G.Scales[I] * G.Scales[I];
       B.Widest = std::max({B.Squares.x, B.Squares.y, B.Squares.z});
       B.Deviation =
-          2 * std::log(G.Opacities[I] / leastAlpha<double>(O.AlphaCutoff));
+          2 * std::log(G.Opacities[I] /
+                       (leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand)));
       Bodies.push_back(B);
     }
   }
@@ -152,7 +156,7 @@ private:
     if (!(Across <= B.Deviation * (B.Widest + Blur * Far * Far)))
       return;
     if (const double Alpha = alpha(B, G.Opacities[I], R, From, Far);
-        Alpha >= leastAlpha<double>(O.AlphaCutoff))
+        Alpha >= leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand))
       List.push_back({By == RayDepths::Own    ? Depth
                       : C.Optics.byDistance() ? glm::length(B.Mean)
                                               : B.Mean.z,
@@ -161,7 +165,7 @@ private:
 
   double alpha(const Body &B, double Opacity, const PixelRay &R,
                const glm::dvec3 &From, double Far) const {
-    if (!isAhead(B, R, From))
+    if (!C.Optics.Model->IsParallel && !isAhead(B, R, From))
       return 0;
     // The rows take away what is along the ray. What they leave of the mean and
     // the covariance is on the picture, where the density's largest value on
@@ -209,6 +213,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
   const glm::dvec3 Background(O.Background[0], O.Background[1],
                               O.Background[2]);
   const SeenScene All(G, C, O, By);
+  const double LeastAlpha = leastAlpha<double>(O.AlphaCutoff);
   std::atomic<uint64_t> Blends = 0, Walked = 0, Saturated = 0;
   forEachTile(Grid.count(), O.Threads, [&](std::size_t Tile) {
     const int X0 = static_cast<int>(Tile) % Grid.Columns * Grid.Size;
@@ -224,9 +229,19 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
             static_cast<std::size_t>(Y) * static_cast<std::size_t>(C.Width) +
             static_cast<std::size_t>(X);
         double &T = P.Transmittance[At];
+        double Depth = 0; // of the Gaussian in front
         for (const Seen &S : Lists[Ray]) {
           ++Walked;
+          if (near(S.Alpha, LeastAlpha))
+            P.Doubts[At] |= DoubtThreshold;
+          if (S.Alpha < LeastAlpha)
+            continue;
           const double Next = T * (1 - S.Alpha);
+          if (near(Next, O.Cutoff))
+            P.Doubts[At] |= DoubtThreshold;
+          if (S.Depth - Depth <= DepthRounding * S.Depth)
+            P.Doubts[At] |= DoubtOrder;
+          Depth = S.Depth;
           if (isFull(Next, O)) {
             P.Stop[At] = S.Index;
             ++Saturated;

@@ -16,11 +16,13 @@ enum class RayDepths {
 /// camera's position when it exposes the pixel. The camera at this time
 /// determines near-plane culling, the order of blending by \p By, and colours.
 /// The dilation is added perpendicular to the ray, at the mean's depth. A
-/// Gaussian whose maximum is behind the ray's origin is culled.
+/// Gaussian whose maximum is behind the ray's origin is culled; parallel rays
+/// have no origin.
 ///
 /// The support of a Gaussian is unlimited, so \c Options::Reach and \c Through
-/// are ignored, and no pixel is doubtful. \c Walked counts the Gaussians that
-/// each pixel evaluates completely.
+/// are ignored. A pixel is doubtful where an alpha or a transmittance is within
+/// \c DoubtBand of its threshold, or fp32 may have two depths in another order.
+/// \c Walked counts the Gaussians that each pixel evaluates completely.
 Picture<double> renderAlongRays(const Gaussians<double> &G,
                                 const Camera<double> &C, const Options &O,
                                 RayDepths By = RayDepths::Own);

@@ -96,6 +96,22 @@ TEST(AlongRays, OneGaussianIsItsLargestDensityOnEachRay) {
               1e-4);
 }
 
+TEST(AlongRays, DoubtfulPixelsAreNearAThresholdOrHaveEqualDepths) {
+  auto C = camera(&lenses::Pinhole);
+  C.Principal = {32.5, 24.5};
+  const auto DoubtOf = [&](double Opacity, double Behind) {
+    Gaussians<double> G;
+    addRound(G, {0, 0, 2}, 0.3, Opacity, glm::dvec3(1));
+    addRound(G, {0, 0, 2 * Behind}, 0.3, 0.5, glm::dvec3(1));
+    return renderAlongRays(G, C, {}).Doubts[24 * 64 + 32];
+  };
+  EXPECT_EQ(DoubtOf(0.4, 1.5), 0);
+  EXPECT_EQ(DoubtOf((1 + 5e-6) / 255, 1.5), DoubtThreshold);
+  EXPECT_EQ(DoubtOf((1 - 5e-6) / 255, 1.5), DoubtThreshold);
+  EXPECT_EQ(DoubtOf(0.4, 1 + 1e-7), DoubtOrder);
+  EXPECT_EQ(DoubtOf(0.4, 1 + 5e-7), 0);
+}
+
 TEST(AlongRays, SmallFootprintsAreTheSame) {
   for (const LensModel *M : lenses::all()) {
     auto C = camera(M);

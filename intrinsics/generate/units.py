@@ -59,13 +59,15 @@ def raster(records):
     yield "};\n"
     front_ends = by_number(records, "FrontEnd")
     yield "struct FrontEnd {\n  uint32_t Primitive; ///< its number\n  std::string_view Name;"
-    yield "  uint8_t RecordBytes;\n  uint8_t PixelWords;  ///< of the pixel buffer, in a render"
+    yield "  uint8_t RecordBytes;\n  bool IsOpaque;       ///< a pixel has the nearest, and blends nothing"
+    yield "  uint8_t PixelWords;  ///< of the pixel buffer, in a render"
     yield "  uint8_t OutputBytes; ///< of a pixel at vr_output\n};"
     yield "/// By number; any other is VR_BAD_MODE."
     yield f"inline constexpr FrontEnd FrontEnds[{len(front_ends)}] = {{"
     for u in front_ends:
         record = camel(u.Record.removeprefix("vx_"))
-        yield f'    {{{u.Name}, "{u.Choice}", sizeof({record}), {u.PixelWords}, {4 * u.OutputWords}}},'
+        is_opaque = "true" if u.IsOpaque else "false"
+        yield f'    {{{u.Name}, "{u.Choice}", sizeof({record}), {is_opaque}, {u.PixelWords}, {4 * u.OutputWords}}},'
     yield "};\n\n} // namespace vorion::raster"
 
 

@@ -93,6 +93,7 @@ uint32_t likelyValue(unsigned Number, uint8_t Choice) {
         Triangles,
         Triangles,
         Triangles | raster::ModeFragments.put(1),
+        raster::ModePrimitive.put(raster::VR_PRIMITIVE_RAY),
         raster::ModeLimited.put(1),
         raster::ModeFrom.put(1) | raster::ModeLoad.put(1),
         raster::ModeLimited.put(1) | raster::ModeKeepSaturated.put(1)};
@@ -109,7 +110,8 @@ uint32_t likelyValue(unsigned Number, uint8_t Choice) {
                raster::ExpUnits[Choice % raster::ExpUnitCount].Option) |
            raster::OptionsBlend.put(Choice / raster::ExpUnitCount %
                                     raster::BlendUnitCount) |
-           raster::OptionsSkipSaturated.put(Choice / 27 % 2);
+           raster::OptionsSkipSaturated.put(Choice / 27 % 2) |
+           raster::OptionsDegree4.put(Choice / 54 % 2);
   case Csr::Cutoff:
     return std::bit_cast<uint32_t>(static_cast<float>(Choice) / 256.0F);
   case Csr::Gaussians:

@@ -124,7 +124,8 @@ uint32_t Execution::blend() {
     if (const uint32_t Status = List.fetch(I, Entry))
       return Status;
     Work.Counts.TailBlends +=
-        blendFunction(Task, Lanes)(Entry.Record, Task.Blend, Tile).Blends;
+        blendFunction<Gaussian>(Task, Lanes)(Entry.Record, Task.Blend, Tile)
+            .Blends;
     if (KeepsFetches) {
       Work.Records.push_back(Entry.Address);
       if (Ranges->left() != LeftBefore || I + 1 == Task.Count)

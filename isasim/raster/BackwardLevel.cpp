@@ -1,10 +1,12 @@
 // The backward datapath for one vector level, as DatapathLevel.cpp.
 #include "raster/Backward.h"
-#include "raster/DatapathParts.h"
+#include "raster/Blended.h"
 #include "raster/ReciprocalVector.h"
 
 namespace vorion::raster {
 namespace {
+
+using Conic = BlendedBody<VR_PRIMITIVE_CONIC>;
 
 constexpr unsigned SumCount = 9;
 
@@ -70,7 +72,7 @@ VORION_INLINE float acrossColumns(Float16 V) {
 
 /// One block of pixels of one row.
 struct Block {
-  const Columns &C;
+  const Conic::Columns &C;
   unsigned At;
   float Dy;
   Float16 Wanted; ///< opacity times falloff
@@ -114,16 +116,16 @@ template <typename Exp>
 BoxWork back(const Gaussian &G, const BackwardOptions &Options,
              BackwardBuffer &Tile, GradientSums &Out) {
   Out = {G.Tag, {}};
-  const CutBox Box = cutBox(G, Tile.CentreX, Tile.CentreY);
+  const CutBox Box = Conic::box(G, Tile.CentreX, Tile.CentreY);
   if (Box.Missed)
     return missed();
 
   // Aligned, since a column's place decides where the gather adds it.
   const unsigned FirstBlock = Box.FirstX / LaneCount;
   const unsigned Used = Box.LastX / LaneCount - FirstBlock + 1;
-  Columns Column[Blocks];
+  Conic::Columns Column[Blocks];
   for (unsigned I = 0; I != Used; ++I)
-    Column[I] = columnsFrom((FirstBlock + I) * LaneCount, G, Tile.CentreX);
+    Column[I] = Conic::columns((FirstBlock + I) * LaneCount, G, Tile.CentreX);
 
   const float Bound = powerBound(G.Opacity, Options.MinAlpha, Exp::Margin);
   const auto Entry = static_cast<int32_t>(Options.Entry);
@@ -133,15 +135,16 @@ BoxWork back(const Gaussian &G, const BackwardOptions &Options,
   for (unsigned Y = Box.FirstY; Y <= Box.LastY; ++Y) {
     Columns16 Row = zeroColumns();
     const unsigned Skipped = Tile.RowLast[Y] <= Options.Entry ? Used : 0;
-    const RowTerms Terms = rowTerms(G, Tile.CentreY[Y]);
+    const Conic::Row Terms = Conic::row(G, Tile.CentreY[Y]);
     for (unsigned I = Skipped; I != Used; ++I) {
-      const Columns &C = Column[I];
+      const Conic::Columns &C = Column[I];
       const unsigned At = Y * BackwardBuffer::Stride + C.First;
       const Int16 Live = C.Inside & (load(Tile.Last + At) > Entry);
       if (Options.SkipSaturated)
         LiveInBox += countBits(bits(Live));
       const auto [Counts, Wanted] =
-          reach<Exp>(G, C, Terms, Live, Bound, Options.MinAlpha);
+          reach<Exp>(Conic::power(G, C, Terms, false), G.Opacity, Live, Bound,
+                     Options.MinAlpha);
       if (bits(Counts) == 0)
         continue;
       through({C, At, Terms.Dy, Wanted, Counts}, G, Options, Tile, Row);

@@ -336,10 +336,13 @@ Scene randomScene(uint32_t Seed) {
   }
   auto Tile = std::make_unique<TileBuffer>();
   Tile->reset(S.X, S.Y, S.Width, S.Height);
-  BlendOptions Options{1e-4F, 1.0F / 255.0F, false, true, 0};
+  BlendOptions Options{.StopBelow = 1e-4F,
+                       .MinAlpha = 1.0F / 255.0F,
+                       .SkipSaturated = false,
+                       .KeepLast = true};
   for (; Options.Entry != S.Gaussians.size(); ++Options.Entry)
-    datapaths().front()->Blend[0][0](S.Gaussians[Options.Entry], Options,
-                                     *Tile);
+    datapaths().front()->Conics.Of[0][0](S.Gaussians[Options.Entry], Options,
+                                         *Tile);
   for (unsigned Row = 0; Row != S.Height; ++Row)
     for (unsigned Column = 0; Column != S.Width; ++Column) {
       const unsigned At = Row * TileBuffer::Stride + Column;

@@ -20,6 +20,11 @@ struct Range {
   double nearest(double To) const { return std::clamp(To, Low, High); }
 };
 
+/// Columns or rows of the tile, both ends included.
+struct Ends {
+  unsigned First, Last;
+};
+
 /// The quadratic form of a Gaussian, whose alpha is opacity exp(-form / 2), and
 /// the largest value of it that is blended.
 class Ellipse {
@@ -60,9 +65,10 @@ void BlockTests::close(unsigned X, unsigned Y, const TileBuffer &Tile) {
   Closed[Y] |= static_cast<uint16_t>(1U << X);
 }
 
-BlockWork BlockTests::count(const Gaussian &G, const BoxWork &Box,
-                            float MinAlpha, const TileBuffer &Tile) {
-  const Ellipse E(G, MinAlpha);
+/// \p IsOut: whether all between columns and between rows is outside.
+template <typename Outside>
+BlockWork BlockTests::count(const BoxWork &Box, const TileBuffer &Tile,
+                            Outside IsOut) {
   const unsigned EndX = Box.X + Box.Width, EndY = Box.Y + Box.Height;
   BlockWork Left{0, 0};
   for (unsigned Y = Box.Y / Side; Y * Side < EndY; ++Y) {
@@ -77,11 +83,7 @@ BlockWork BlockTests::count(const Gaussian &G, const BoxWork &Box,
         // For the Gaussians behind this one, which found it open.
         close(X, Y, Tile);
       }
-      if ((Which & OutsideEllipse) &&
-          !E.touches({double{Tile.CentreX[FirstX]} - G.Mean[0],
-                      double{Tile.CentreX[LastX]} - G.Mean[0]},
-                     {double{Tile.CentreY[FirstY]} - G.Mean[1],
-                      double{Tile.CentreY[LastY]} - G.Mean[1]}))
+      if ((Which & OutsideEllipse) && IsOut({FirstX, LastX}, {FirstY, LastY}))
         continue;
       ++Left.Blocks;
       Left.Pixels = static_cast<uint16_t>(
@@ -89,6 +91,22 @@ BlockWork BlockTests::count(const Gaussian &G, const BoxWork &Box,
     }
   }
   return Left;
+}
+
+BlockWork BlockTests::count(const Gaussian &G, const BoxWork &Box,
+                            float MinAlpha, const TileBuffer &Tile) {
+  const Ellipse E(G, MinAlpha);
+  return count(Box, Tile, [&](Ends X, Ends Y) {
+    return !E.touches({double{Tile.CentreX[X.First]} - G.Mean[0],
+                       double{Tile.CentreX[X.Last]} - G.Mean[0]},
+                      {double{Tile.CentreY[Y.First]} - G.Mean[1],
+                       double{Tile.CentreY[Y.Last]} - G.Mean[1]});
+  });
+}
+
+BlockWork BlockTests::count(const RayGaussian &, const BoxWork &Box, float,
+                            const TileBuffer &Tile) {
+  return count(Box, Tile, [](Ends, Ends) { return false; });
 }
 
 } // namespace vorion::raster

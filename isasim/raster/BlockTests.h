@@ -28,13 +28,18 @@ public:
   explicit BlockTests(unsigned WhichIn) : Which(WhichIn) {}
   bool any() const { return Which != 0; }
 
-  /// \p G has been blended into \p Tile, which it does not miss.
+  /// The primitive has been blended into \p Tile, which it does not miss. Of a
+  /// Gaussian that rays meet there is no ellipse to test.
   BlockWork count(const Gaussian &G, const BoxWork &Box, float MinAlpha,
+                  const TileBuffer &Tile);
+  BlockWork count(const RayGaussian &, const BoxWork &Box, float MinAlpha,
                   const TileBuffer &Tile);
 
 private:
   static constexpr unsigned PerRow = VR_MAX_TILE / Side;
 
+  template <typename Outside>
+  BlockWork count(const BoxWork &Box, const TileBuffer &Tile, Outside IsOut);
   bool isClosed(unsigned X, unsigned Y) const { return Closed[Y] >> X & 1; }
   void close(unsigned X, unsigned Y, const TileBuffer &Tile);
 

@@ -79,7 +79,7 @@ void blendMany(unsigned Which, unsigned Width, unsigned Height,
   for (unsigned N = 0; N != 400; ++N) {
     const Gaussian G = randomGaussian(Random);
     *Was = *Tile;
-    const BoxWork Work = datapaths().back()->Blend[0][0](G, Options, *Tile);
+    const BoxWork Work = datapaths().back()->Conics.Of[0][0](G, Options, *Tile);
     if (!Work.Clipped)
       Check(Work, Tests.count(G, Work, MinAlpha, *Tile),
             counted(Work, *Was, *Tile));
@@ -132,7 +132,7 @@ TEST(BlockTests, CountTheBoxsPixels) {
   G.Extent[0] = 5;
   G.Extent[1] = 3;
   const BoxWork Work =
-      datapaths().back()->Blend[0][0](G, {1e-4F, MinAlpha, false}, *Tile);
+      datapaths().back()->Conics.Of[0][0](G, {1e-4F, MinAlpha, false}, *Tile);
   BlockTests Tests(OutsideEllipse);
   const BlockWork Left = Tests.count(G, Work, MinAlpha, *Tile);
   EXPECT_EQ(Left.Blocks, 4 * 2);
@@ -150,7 +150,7 @@ TEST(BlockTests, WhatIsNoEllipseLeavesAll) {
     G.Opacity = 0.5F;
     G.Extent[0] = G.Extent[1] = INFINITY;
     const BoxWork Work =
-        datapaths().back()->Blend[0][0](G, {1e-4F, MinAlpha, false}, *Tile);
+        datapaths().back()->Conics.Of[0][0](G, {1e-4F, MinAlpha, false}, *Tile);
     BlockTests Tests(OutsideEllipse);
     EXPECT_EQ(Tests.count(G, Work, MinAlpha, *Tile).Blocks, PerRow * PerRow);
   }

@@ -61,6 +61,13 @@ uint32_t checkRecord(const Gaussian &G) {
   return checkFloats(Floats);
 }
 
+uint32_t checkRecord(const RayGaussian &G) {
+  const float Floats[] = {G.Mean[0],   G.Mean[1],  G.Factor[0], G.Factor[1],
+                          G.Factor[2], G.Slope[0], G.Slope[1],  G.Near,
+                          G.Opacity,   G.Color[0], G.Color[1],  G.Color[2]};
+  return checkFloats(Floats);
+}
+
 ListReader::ListReader(const Job &J, RasterMemory &Global, uint32_t Bytes)
     : Records(J.Gaussians), RecordBytes(Bytes), Count(J.Count), Memory(Global),
       Entries(Count == 0 ? nullptr : Memory.range(J.List, 4ULL * Count)) {}

@@ -8,6 +8,7 @@
 #include <cfenv>
 #include <cstring>
 #include <span>
+#include <type_traits>
 
 namespace vorion::raster {
 
@@ -30,10 +31,17 @@ private:
 /// The oldest command of \p Agent, checked and not begun.
 CommandWork beginCommand(const RasterAgent &Agent, RasterMemory &Memory);
 
-/// The datapath of \p Lanes that \p J, which was not refused, asks for.
-inline Datapath::BlendFunction blendFunction(const Job &J,
-                                             const Datapath &Lanes) {
-  return Lanes.Blend[expRow(J.Units.Exp)][J.Units.Blend];
+/// The datapath of \p Lanes that \p J, which was not refused, asks for; its
+/// front end has such records.
+template <typename Record>
+BlendFunction<Record> blendFunction(const Job &J, const Datapath &Lanes) {
+  const auto &Of = [&]() -> const BlendTable<Record> & {
+    if constexpr (std::is_same_v<Record, Gaussian>)
+      return Lanes.Conics;
+    else
+      return Lanes.Rays;
+  }();
+  return Of.Of[expRow(J.Units.Exp)][J.Units.Blend];
 }
 
 /// Host address of row \p Row of the output of \p J, or nullptr if it is not
@@ -65,6 +73,7 @@ uint32_t checkFloats(std::span<const float> Floats);
 
 /// Likewise of the floats of a record; each kind has such a function.
 uint32_t checkRecord(const Gaussian &G);
+uint32_t checkRecord(const RayGaussian &G);
 
 /// The list of a command that was not refused.
 class ListReader {

@@ -1,4 +1,4 @@
-/// The blend of one Gaussian into a tile (docs/abi.md, "Rasterizer"). There is
+/// The blend of one primitive into a tile (docs/abi.md, "Rasterizer"). There is
 /// one source, compiled for several vector levels of the host; all give the
 /// same bits.
 #pragma once
@@ -51,21 +51,30 @@ struct BlendOptions {
   /// The smallest alpha that is blended.
   float MinAlpha;
   bool SkipSaturated;
+  /// Whether rays take the falloff of degree 4.
+  bool IsDegree4 = false;
   /// Whether TileBuffer::Last gets Entry + 1, for the entry of the list that is
   /// blended next.
   bool KeepLast = false;
   uint32_t Entry = 0;
 };
 
+/// Blends one primitive (no NaN) into a tile.
+template <typename Record>
+using BlendFunction = BoxWork (*)(const Record &, const BlendOptions &,
+                                  TileBuffer &);
+
+/// By expRow() and vr_options.blend.
+template <typename Record> struct BlendTable {
+  BlendFunction<Record> Of[ExpRowCount][BlendUnitCount];
+};
+
 /// One compilation of the datapath.
 struct Datapath {
   const char *Name;
   bool (*HostSupports)();
-  /// By expRow() and vr_options.blend: blends one Gaussian (no NaN) into a
-  /// tile.
-  using BlendFunction = BoxWork (*)(const Gaussian &, const BlendOptions &,
-                                    TileBuffer &);
-  BlendFunction Blend[ExpRowCount][BlendUnitCount];
+  BlendTable<Gaussian> Conics;
+  BlendTable<RayGaussian> Rays;
   /// By expRow(): the unit alone, in place, \p Count a multiple of 16.
   void (*Exp[ExpRowCount])(float *Values, std::size_t Count);
   /// By vr_options.blend: rounds what a multiplication takes, in place.

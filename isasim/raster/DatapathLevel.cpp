@@ -2,16 +2,16 @@
 // flags and VORION_LEVEL naming it. Includes nothing that defines functions
 // which other files could share (see Vector.h).
 #include "raster/BlendVector.h"
+#include "raster/Blended.h"
 #include "raster/Datapath.h"
-#include "raster/DatapathParts.h"
 
 namespace vorion::raster {
 namespace {
 
-template <typename Exp, typename Arithmetic>
-BoxWork blend(const Gaussian &G, const BlendOptions &Options,
+template <typename Body, typename Exp, typename Arithmetic>
+BoxWork blend(const typename Body::Record &G, const BlendOptions &Options,
               TileBuffer &Tile) {
-  const CutBox Box = cutBox(G, Tile.CentreX, Tile.CentreY);
+  const CutBox Box = Body::box(G, Tile.CentreX, Tile.CentreY);
   if (Box.Missed)
     return missed();
 
@@ -20,9 +20,9 @@ BoxWork blend(const Gaussian &G, const BlendOptions &Options,
   const unsigned Latest = TileBuffer::Stride - Groups * LaneCount;
   const unsigned Start = Box.FirstX < Latest ? Box.FirstX : Latest;
 
-  Columns Column[Blocks];
+  typename Body::Columns Column[Blocks];
   for (unsigned I = 0; I != Groups; ++I)
-    Column[I] = columnsFrom(Start + I * LaneCount, G, Tile.CentreX);
+    Column[I] = Body::columns(Start + I * LaneCount, G, Tile.CentreX);
 
   const float Bound = powerBound(G.Opacity, Options.MinAlpha, Exp::Margin);
   const Float16 OfRed = Arithmetic::operand(G.Color[0]);
@@ -34,9 +34,9 @@ BoxWork blend(const Gaussian &G, const BlendOptions &Options,
   for (unsigned Row = Box.FirstY; Row <= Box.LastY; ++Row) {
     if (Tile.RowLive[Row] == 0)
       continue;
-    const RowTerms Terms = rowTerms(G, Tile.CentreY[Row]);
+    const typename Body::Row Terms = Body::row(G, Tile.CentreY[Row]);
     for (unsigned I = 0; I != Groups; ++I) {
-      const Columns &C = Column[I];
+      const typename Body::Columns &C = Column[I];
       const unsigned At = Row * TileBuffer::Stride + C.First;
       const Float16 T = load(Tile.T + At);
       const Int16 Open = C.Inside & (__builtin_bit_cast(Int16, T) >= 0);
@@ -44,7 +44,8 @@ BoxWork blend(const Gaussian &G, const BlendOptions &Options,
         LiveInBox += countBits(bits(Open));
 
       const auto [Counts, Wanted] =
-          reach<Exp>(G, C, Terms, Open, Bound, Options.MinAlpha);
+          reach<Exp>(Body::power(G, C, Terms, Options.IsDegree4), G.Opacity,
+                     Open, Bound, Options.MinAlpha);
       if (bits(Counts) == 0)
         continue;
       const Float16 Alpha = Wanted < MaxAlpha ? Wanted : Float16(MaxAlpha);
@@ -92,18 +93,29 @@ void roundOperands(float *Values, std::size_t Count) {
 
 using Arithmetics = Bodies<BlendBody, BlendUnitCount>;
 
-template <typename Exp, typename... As>
-constexpr void setBlends(Datapath::BlendFunction *To, List<As...>) {
-  ((*To++ = blend<Exp, As>), ...);
+template <typename Body, typename Exp, typename... As>
+constexpr void setBlends(BlendFunction<typename Body::Record> *To,
+                         List<As...>) {
+  ((*To++ = blend<Body, Exp, As>), ...);
+}
+
+template <typename Body, typename... Es>
+constexpr BlendTable<typename Body::Record> makeBlends(List<Es...>) {
+  BlendTable<typename Body::Record> T{};
+  std::size_t Unit = 0;
+  (setBlends<Body, Es>(T.Of[Unit++], Arithmetics()), ...);
+  return T;
 }
 
 template <typename... Es, typename... As>
 constexpr Datapath makeDatapath(const char *Name, bool (*HostSupports)(),
-                                List<Es...>, List<As...> All) {
-  Datapath D{Name, HostSupports, {}, {evaluate<Es>...}, {roundOperands<As>...}};
-  std::size_t Unit = 0;
-  (setBlends<Es>(D.Blend[Unit++], All), ...);
-  return D;
+                                List<Es...> All, List<As...>) {
+  return {Name,
+          HostSupports,
+          makeBlends<BlendedBody<VR_PRIMITIVE_CONIC>>(All),
+          makeBlends<BlendedBody<VR_PRIMITIVE_RAY>>(All),
+          {evaluate<Es>...},
+          {roundOperands<As>...}};
 }
 
 } // namespace

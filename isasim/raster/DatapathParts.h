@@ -17,18 +17,6 @@ namespace {
 constexpr float MaxAlpha = 0.99F;
 constexpr unsigned Blocks = VR_MAX_TILE / LaneCount;
 
-/// Bit i is set if centre i lies in the box, found by the definition itself, so
-/// that no coordinate is ever converted to an integer. Always one run of bits.
-VORION_INLINE uint64_t inBox(const float *Centres, float Mean, float Extent) {
-  uint64_t Result = 0;
-  for (unsigned B = 0; B != Blocks; ++B) {
-    const Float16 Distance =
-        __builtin_elementwise_abs(load(Centres + B * LaneCount) - Mean);
-    Result |= uint64_t{bits(Distance <= Extent)} << (B * LaneCount);
-  }
-  return Result;
-}
-
 /// A Gaussian's box cut to a tile: columns and rows, both ends included.
 struct CutBox {
   bool Missed; ///< no pixel centre in common; nothing below is meaningful
@@ -38,10 +26,8 @@ struct CutBox {
   unsigned height() const { return LastY - FirstY + 1; }
 };
 
-VORION_INLINE CutBox cutBox(const Gaussian &G, const float *CentreX,
-                            const float *CentreY) {
-  const uint64_t InX = inBox(CentreX, G.Mean[0], G.Extent[0]);
-  const uint64_t InY = inBox(CentreY, G.Mean[1], G.Extent[1]);
+/// Of the bits that are set for the centres that lie in the box.
+VORION_INLINE CutBox cutBox(uint64_t InX, uint64_t InY) {
   if (InX == 0 || InY == 0)
     return {true, 0, 0, 0, 0};
   return {false, static_cast<unsigned>(__builtin_ctzll(InX)),
@@ -57,50 +43,22 @@ VORION_INLINE float powerBound(float Opacity, float MinAlpha, float Margin) {
   return __builtin_logf(MinAlpha / Opacity) - Margin;
 }
 
-/// What of a Gaussian is the same in all rows, for the 16 columns from First.
-struct Columns {
-  unsigned First;
-  Float16 Dx; ///< from the pixel to the mean
-  Int16 Inside;
-  Float16 AX2; ///< a * dx * dx
-  Float16 BX;  ///< b * dx
-};
-
-VORION_INLINE Columns columnsFrom(unsigned First, const Gaussian &G,
-                                  const float *CentreX) {
-  const Float16 Dx = G.Mean[0] - load(CentreX + First);
-  return {First, Dx, __builtin_elementwise_abs(Dx) <= G.Extent[0],
-          G.Conic[0] * Dx * Dx, G.Conic[1] * Dx};
-}
-
-/// What of a Gaussian is the same in a row.
-struct RowTerms {
-  float Dy;  ///< from the pixel to the mean
-  float CY2; ///< c * dy * dy
-};
-
-VORION_INLINE RowTerms rowTerms(const Gaussian &G, float CentreY) {
-  const float Dy = G.Mean[1] - CentreY;
-  return {Dy, G.Conic[2] * Dy * Dy};
-}
-
-/// What a Gaussian is to 16 pixels of a row.
+/// What a primitive is to 16 pixels of a row.
 struct Reach {
   Int16 Counts;   ///< the pixels that it is blended into
   Float16 Wanted; ///< opacity times falloff; meaningful where it counts
 };
 
-/// \p Open: the pixels that it may be blended into. One definition for both
-/// directions: gradients go through what the picture holds, and nothing else.
+/// By the exponent of its density. \p Open: the pixels that it may be blended
+/// into. One definition for both directions: gradients go through what the
+/// picture holds, and nothing else.
 template <typename Exp>
-VORION_INLINE Reach reach(const Gaussian &G, const Columns &C,
-                          const RowTerms &R, Int16 Open, float Bound,
+VORION_INLINE Reach reach(Float16 Power, float Opacity, Int16 Open, float Bound,
                           float MinAlpha) {
-  const Float16 Power = -0.5F * (C.AX2 + R.CY2) - C.BX * R.Dy;
   const Int16 Near = Open & (Power <= 0.0F) & ~(Power < Bound);
   if (bits(Near) == 0)
     return {Near, Power};
-  const Float16 Wanted = G.Opacity * Exp::evaluate(Power);
+  const Float16 Wanted = Opacity * Exp::evaluate(Power);
   return {Near & (Wanted >= MinAlpha), Wanted};
 }
 

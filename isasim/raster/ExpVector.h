@@ -44,11 +44,17 @@ VORION_INLINE Double8 expDouble(Double8 X) {
       0x1.a019b9149a41cp-16, 0x1.a01a01a7c2efep-13, 0x1.6c16c17889ef1p-10,
       0x1.11111111109b5p-7,  0x1.5555555553d68p-5,  0x1.5555555555556p-3,
       0x1.0000000000001p-1};
-  Double8 Tail = Coefficients[0];
-#pragma clang loop unroll(full)
-  for (unsigned I = 1; I != sizeof(Coefficients) / sizeof(Coefficients[0]); ++I)
-    Tail = multiplyAdd(Tail, R, Coefficients[I]);
-  const Double8 E = 1.0 + multiplyAdd(R * R, Tail, R);
+  // Powers of r^2 and r^4 side by side: a chain of ten multiply-adds would take
+  // longer than all that is around it.
+  const auto &C = Coefficients;
+  const Double8 R2 = R * R, R4 = R2 * R2;
+  const Double8 Low =
+      multiplyAdd(R2, multiplyAdd(R, C[6], C[7]), multiplyAdd(R, C[8], C[9]));
+  const Double8 Middle =
+      multiplyAdd(R2, multiplyAdd(R, C[2], C[3]), multiplyAdd(R, C[4], C[5]));
+  const Double8 High = multiplyAdd(R, C[0], C[1]);
+  const Double8 Tail = multiplyAdd(R4, multiplyAdd(R4, High, Middle), Low);
+  const Double8 E = 1.0 + multiplyAdd(R2, Tail, R);
 
   // Times 2^K: K sits in Shifted's low bits, modulo 2^12 is enough.
   return __builtin_bit_cast(Double8,

@@ -20,6 +20,7 @@ static BlendOptions blendOptions(const Command &C) {
   O.MinAlpha =
       static_cast<float>(1U << OptionsAlphaCutoff.get(C.Options)) / 255.0F;
   O.SkipSaturated = OptionsSkipSaturated.get(C.Options) != 0;
+  O.IsDegree4 = OptionsDegree4.get(C.Options) != 0;
   O.KeepLast = ModeKeepLast.get(C.Mode) != 0;
   return O;
 }
@@ -94,12 +95,14 @@ static bool isKnownTraining(const Command &C, const Job &J) {
 }
 
 /// Opaque primitives are tested against depths and do nothing else. Others have
-/// no fragments to hand over.
+/// no fragments to hand over. What lanes push are conics; rays alone have a
+/// degree.
 static bool isKnownPrimitive(const Command &C, const Job &J) {
   if (J.Units.FrontEnd >= std::size(FrontEnds))
     return false;
   if (!J.Units.isOpaque())
-    return !J.HandsFragments;
+    return !J.HandsFragments &&
+           (J.Units.isConic() ? !J.Blend.IsDegree4 : !J.TakesPushed);
   const uint32_t Allowed =
       ModePrimitive.put(ModePrimitive.mask()) | ModeFragments.put(1);
   const uint32_t KnownDepth = DepthFunction.put(DepthFunction.mask()) |
@@ -126,7 +129,7 @@ static bool isKnown(const Command &C, const Job &J) {
   const uint32_t KnownOptions =
       OptionsExp.put(OptionsExp.mask()) | OptionsStopAtEqual.put(1) |
       OptionsSkipSaturated.put(1) | OptionsBlend.put(OptionsBlend.mask()) |
-      OptionsAlphaCutoff.put(OptionsAlphaCutoff.mask());
+      OptionsAlphaCutoff.put(OptionsAlphaCutoff.mask()) | OptionsDegree4.put(1);
   const uint32_t Parts = ZtileCount.get(C.Ztile);
   return (C.Mode & ~KnownMode) == 0 && (C.Options & ~KnownOptions) == 0 &&
          J.Units.Exp < ExpUnitCount && J.Units.Blend < BlendUnitCount &&
@@ -186,7 +189,7 @@ static uint32_t refusal(const Command &C, const Job &J, RasterMemory &Memory) {
     return VR_BAD_COUNT;
   if (J.TailShare > VR_TAIL_WHOLE ||
       (J.mayHandOver() && (J.TakesPushed || J.Drains || J.IsBackward ||
-                           J.KeepsLast || J.Units.isOpaque())))
+                           J.KeepsLast || !J.Units.isConic())))
     return VR_BAD_TAIL;
   if (!isAligned(J))
     return VR_MISALIGNED;

@@ -36,8 +36,15 @@ struct LaneUnits {
   uint8_t FrontEnd = 0; ///< row of FrontEnds
 
   /// Whether what the front end covers is opaque: pixels have a depth and a
-  /// primitive, and nothing is blended.
-  bool isOpaque() const { return FrontEnd != 0; }
+  /// primitive, and nothing is blended. Of one that does not exist, true.
+  bool isOpaque() const {
+    return FrontEnd >= std::size(FrontEnds) || FrontEnds[FrontEnd].IsOpaque;
+  }
+  /// Whether records are vx_gaussian.
+  bool isConic() const {
+    return FrontEnd < std::size(FrontEnds) &&
+           FrontEnds[FrontEnd].Primitive == VR_PRIMITIVE_CONIC;
+  }
 };
 
 /// What a command does with depths (VR_WORD_DEPTH).

@@ -33,7 +33,8 @@ std::unique_ptr<BatchRun> Rasterizer::makeBatchRun(const RasterAgent &Agent) {
     return std::make_unique<BackwardRun>(Agent, Memory, *BackwardTile,
                                          *BackwardLanes, Log);
   }
-  if (ModePrimitive.get(C.Mode) == VR_PRIMITIVE_CONIC && !C.handsOver())
+  const LaneUnits Units{.FrontEnd = frontEndRowOf(ModePrimitive.get(C.Mode))};
+  if (!Units.isOpaque() && !C.handsOver())
     return nullptr;
   if (!SurfaceTile)
     SurfaceTile = std::make_unique<SurfaceBuffer>();

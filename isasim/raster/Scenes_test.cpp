@@ -90,7 +90,7 @@ Result onLevel(const Datapath &Level, const Scene &S, const Lane &L = {}) {
   for (const Gaussian &G : S.Gaussians) {
     if (Tile->Live == 0)
       break;
-    const BoxWork Work = Level.Blend[L.Exp][L.Blend](G, Options, *Tile);
+    const BoxWork Work = Level.Conics.Of[L.Exp][L.Blend](G, Options, *Tile);
     ++Out.Work.Gaussians;
     Out.Work.Clipped += Work.Clipped;
     Out.Work.Fragments += Work.Fragments;

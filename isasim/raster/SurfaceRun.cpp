@@ -152,11 +152,14 @@ std::unique_ptr<BatchRun> make(const RasterAgent &Agent, RasterMemory &Memory,
   return std::make_unique<SurfaceRun<Primitive>>(Agent, Memory, Tile, Log);
 }
 
-/// By row of FrontEnds behind the conic's.
-constexpr std::size_t Kinds = std::size(FrontEnds) - 1;
+/// By row of FrontEnds. A command that no opaque kind takes is refused, whoever
+/// refuses it.
+constexpr std::size_t Kinds = std::size(FrontEnds);
 constexpr std::array<Maker, Kinds> Makers =
     []<std::size_t... Row>(std::index_sequence<Row...>) {
-      return std::array<Maker, Kinds>{make<FrontEnds[Row + 1].Primitive>...};
+      return std::array<Maker, Kinds>{make < FrontEnds[Row].IsOpaque
+                                          ? FrontEnds[Row].Primitive
+                                          : VR_PRIMITIVE_TRIANGLE > ...};
     }(std::make_index_sequence<Kinds>());
 
 } // namespace
@@ -166,9 +169,7 @@ std::unique_ptr<BatchRun> makeSurfaceRun(const RasterAgent &Agent,
                                          SurfaceBuffer &Tile,
                                          const WorkLog *Log) {
   const std::size_t Row = frontEndRowOf(ModePrimitive.get(Agent.front().Mode));
-  // A command that no front end takes is refused, whoever refuses it.
-  const std::size_t Kind = Row == 0 || Row > Kinds ? 0 : Row - 1;
-  return Makers[Kind](Agent, Memory, Tile, Log);
+  return Makers[Row < Kinds ? Row : 0](Agent, Memory, Tile, Log);
 }
 
 } // namespace vorion::raster

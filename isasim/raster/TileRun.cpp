@@ -9,7 +9,7 @@ TileRun::TileRun(RasterAgent &Served, RasterMemory &Global, TileBuffer &Buffer,
                  const Datapath &Unit, const WorkLog *Log)
     : Agent(Served), Current(Served.front()),
       Work(beginCommand(Served, Global)), Memory(Global), Tile(Buffer),
-      Lanes(Unit), List(Task, Global), KeepsFetches(Log && Log->wantsFetches()),
+      Lanes(Unit), KeepsFetches(Log && Log->wantsFetches()),
       Tests(KeepsFetches ? Log->blockTests() : 0) {
   if (Log)
     Work.Pushed = Current.Pushed;
@@ -36,9 +36,10 @@ void TileRun::loadPixels() {
   }
 }
 
-void TileRun::blendOne(const Gaussian &G, uint32_t Address, bool Intersects,
+template <typename Record>
+void TileRun::blendOne(const Record &G, uint32_t Address, bool Intersects,
                        const BlendOptions &Options) {
-  const BoxWork Result = blendFunction(Task, Lanes)(G, Options, Tile);
+  const BoxWork Result = blendFunction<Record>(Task, Lanes)(G, Options, Tile);
   Work.Counts.Intersecting += Intersects;
   Work.Counts.Clipped += Result.Clipped;
   Work.Counts.Fragments += Result.Fragments;
@@ -76,9 +77,10 @@ bool TileRun::isTail(uint32_t Remaining) const {
           Saturated * VR_TAIL_WHOLE >= Task.TailShare * Pixels);
 }
 
-bool TileRun::blendList() {
+template <typename Record> bool TileRun::blendList() {
+  const RecordList<Record> List(Task, Memory);
   BlendOptions Options = Task.Blend;
-  Fetched Entry;
+  FetchedRecord<Record> Entry;
   const uint32_t End = Done + std::min(LongestStretch, Task.Count - Done);
   for (; Done != End && Ranges->goTo(Done); ++Done) {
     if (Task.mayHandOver() && isTail(Task.Count - Done)) {
@@ -98,7 +100,10 @@ bool TileRun::blendList() {
 bool TileRun::blend() {
   if (Work.hasFailed())
     return true;
-  return Task.TakesPushed ? blendPushed() : blendList();
+  if (Task.TakesPushed)
+    return blendPushed();
+  return Task.Units.isConic() ? blendList<Gaussian>()
+                              : blendList<RayGaussian>();
 }
 
 void TileRun::copyRow(unsigned Row, std::byte *To) const {

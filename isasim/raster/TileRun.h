@@ -37,9 +37,10 @@ private:
   void loadPixels();
   bool blend();
   bool blendPushed();
-  bool blendList();
+  template <typename Record> bool blendList();
   /// \p G has been checked. \p Address: of the record, 0 if it was pushed.
-  void blendOne(const Gaussian &G, uint32_t Address, bool Intersects,
+  template <typename Record>
+  void blendOne(const Record &G, uint32_t Address, bool Intersects,
                 const BlendOptions &Options);
   bool isTail(uint32_t Remaining) const;
   void copyRow(unsigned Row, std::byte *To) const;
@@ -55,7 +56,6 @@ private:
   RasterMemory &Memory;
   TileBuffer &Tile;
   const Datapath &Lanes;
-  GaussianList List;
   bool KeepsFetches;
   BlockTests Tests;
   std::optional<PixelRanges> Ranges; ///< of a command that is not refused

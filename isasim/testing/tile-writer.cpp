@@ -33,7 +33,7 @@ private:
   void rasterCommand(const raster::CommandWork &Work) override {
     const raster::Job &J = Work.What;
     if (!File || !Device || J.Refusal || J.IsBackward || J.TakesPushed ||
-        J.Units.isOpaque())
+        !J.Units.isConic())
       return;
     RasterTile T;
     std::snprintf(T.What.Name.data(), T.What.Name.size(), "%u,%u", J.X, J.Y);

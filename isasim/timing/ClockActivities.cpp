@@ -5,6 +5,8 @@
 #include "timing/common/DatapathUnits.h"
 #include "timing/dram/TimingTable.h"
 
+#include <algorithm>
+
 namespace vorion::isasim {
 
 void Clock::collectActivities(TimeReport &R) const {
@@ -105,7 +107,8 @@ void Clock::collectRasters(TimeReport &R) const {
   Add("rasterizer gradients", "pixels", Work.Gradients);
   if (Work.allCovered() != 0) {
     for (size_t N = 1; N != Work.Covered.size(); ++N)
-      Add("rasterizer front end", raster::FrontEnds[N].Name, Work.Covered[N]);
+      if (Work.Covered[N] != 0)
+        Add("rasterizer front end", raster::FrontEnds[N].Name, Work.Covered[N]);
     Add("rasterizer front end", "pixels in front", Work.Passed);
   }
   PixelTime Tails;
@@ -149,6 +152,14 @@ void Clock::collectTimes(TimeReport &R) const {
   }
   Add("rasterizer lanes",
       Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
+  // A machine that no command asks for rays is one without their units.
+  if (std::ranges::any_of(Rasters, [](const RasterClock &C) {
+        return C.laneWork()
+                   .Covered[raster::frontEndRowOf(raster::VR_PRIMITIVE_RAY)] !=
+               0;
+      }))
+    Add("lanes that meet rays",
+        Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
   Add("pixel unit lanes", Each(uint64_t{Shape.Clusters} * Timing.Pixel.Lanes));
   uint64_t Rasterizing = 0, Tailing = 0;
   for (const RasterTime &T : R.Rasters)

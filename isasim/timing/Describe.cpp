@@ -62,6 +62,12 @@ std::string timingMarkdown() {
       if (datapathUnits(Units)[N].Name != Lane[N].Name)
         Row(datapathUnits(Units)[N]);
   };
+  const auto ForFrontEnds = [](bool AreOpaque, auto Use) {
+    for (uint8_t N = 1; N != std::size(raster::FrontEnds); ++N)
+      if (raster::FrontEnds[N].IsOpaque == AreOpaque)
+        Use({.FrontEnd = N});
+  };
+  ForFrontEnds(false, Others);
   for (uint8_t Exp = 1; Exp != raster::ExpUnitCount; ++Exp)
     Others({.Exp = Exp});
   for (uint8_t Blend = 1; Blend != raster::BlendUnitCount; ++Blend)
@@ -69,8 +75,9 @@ std::string timingMarkdown() {
   Text += fmt::format(
       "\nFront ends of opaque primitives, in place of all but the gather\n\n{}",
       Head);
-  for (uint8_t N = 1; N != std::size(raster::FrontEnds); ++N)
-    Row(datapathUnits({.FrontEnd = N}).front());
+  ForFrontEnds(true, [&](raster::LaneUnits Units) {
+    Row(datapathUnits(Units).front());
+  });
   Text += fmt::format(
       "\nUnits of a pair of lanes in the backward mode, beyond two lanes\n\n{}",
       Head);

@@ -72,6 +72,12 @@ static inline void vx_raster_from(uint from) {
   vr_word_set(from);
 }
 
+/* After vx_raster_setup, and after vx_raster_keep_counts where that is used:
+   the records are vx_ray_gaussian. */
+static inline void vx_raster_rays(void) {
+  vr_mode_set(vr_mode() | VR_PRIMITIVE_RAY << VR_MODE_PRIMITIVE_SHIFT);
+}
+
 /* After vx_raster_setup, for a list that several commands blend, one after the
    other. With `load` tiles from here on begin with the pixels at `output`; with
    `keep` they mark those that are saturated, which the next command needs. */

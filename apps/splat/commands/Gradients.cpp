@@ -113,9 +113,10 @@ Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
                               const Camera &C, const Device &D,
                               const GradientResult &R) {
   const RenderPlan Plan = gradientPlan(File.Gaussians, C, A.Options);
-  const auto Report = jsonReport(
-      {A.Scene.Path, A.Scene.Axes, A.Cameras, A.Output, File, C, A.Options,
-       Plan, D, R, BackwardRecord{A.Backward, A.Upstream, R.Gradients}});
+  const auto Report =
+      jsonReport({A.Scene.Path, A.Scene.Axes, A.Cameras, A.Output, File,
+                  File.Gaussians.size(), C, A.Options, Plan, D, R,
+                  BackwardRecord{A.Backward, A.Upstream, R.Gradients}});
   return Report ? writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n")
                 : Expected<Success>(Report.error());
 }

@@ -122,6 +122,44 @@ Expected<Success> checkVideo(const RenderArguments &A) {
   return checkVideoWriter();
 }
 
+/// Refuses options that only footprints have.
+Expected<Success> checkRenderer(const RenderArguments &A) {
+  const RenderOptions &O = A.Options;
+  if (O.Kind == RendererKind::Splat)
+    return Success{};
+  const DrawingRequest &Drawn = A.Scene.Options.Drawn;
+  for (const auto &[Is, Option] :
+       {std::pair{O.Reach != Support::Exact, "--support"},
+        {O.Through != Spread::Jacobian, "--projection"},
+        {O.Order != PixelOrder::Depth, "--order"},
+        {Drawn.Antialiased.value_or(false), "--antialiased"},
+        {Drawn.Dilation.has_value(), "--dilation"},
+        {O.CullBlocks, "--cull-blocks"},
+        {O.PixelUnit.any(), "--pixel-unit"},
+        {!A.Numerics.empty(), "--numerics"},
+        {A.Layers.needLists(), "--contributors or --depth-as median"}})
+    if (Is)
+      return Error{"",
+                   fmt::format("--renderer ray excludes {}, expected "
+                               "--renderer splat",
+                               Option),
+                   ExitCode::Usage};
+  return Success{};
+}
+
+/// Refuses cameras whose rays are not affine in the pixel.
+Expected<Success> checkRays(const RenderArguments &A) {
+  const RenderOptions &O = A.Options;
+  if (O.Kind == RendererKind::Splat ||
+      ((O.Optics->isPinhole() || O.Optics->IsParallel) && !O.Rolling))
+    return Success{};
+  return Error{A.Cameras.File,
+               fmt::format("--renderer ray: a camera of model {}{}, expected a "
+                           "pinhole or parallel rays",
+                           O.Optics->Name,
+                           O.Rolling ? " with a rolling shutter" : "")};
+}
+
 /// The extensions of -o.
 std::vector<std::string_view> outputEndings() {
   std::vector<std::string_view> Endings(pictureEndings().begin(),
@@ -138,8 +176,8 @@ Expected<Success> check(const RenderArguments &A) {
   };
   const RenderOptions &O = A.Options;
   for (const auto &Checked :
-       {checkEnding("-o", A.Output, outputEndings()), checkVideo(A),
-        checkEnding("--pairs", A.Pairs, {".npz"}),
+       {checkRenderer(A), checkEnding("-o", A.Output, outputEndings()),
+        checkVideo(A), checkEnding("--pairs", A.Pairs, {".npz"}),
         checkEnding("--visible", A.Visible, {".npz"}),
         A.Mesh.File.empty() ? Success{} : checkMesh(A, /*HasMesh=*/true),
         checkJsonName(A.Json), checkPage(A.Page),
@@ -440,6 +478,13 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return Cameras.error();
   if (auto Through = drawThrough(A.Options, A.Cameras.File, *Cameras); !Through)
     return Through;
+  if (auto Checked = checkRays(A); !Checked)
+    return Checked;
+  if (A.Options.Kind == RendererKind::Ray && !File->DrawnAs.Source.empty())
+    printDiagnostic("splat", "note", A.Scene.Path,
+                    fmt::format("is not drawn as \"{}\" says, which is of "
+                                "footprints: --renderer splat does",
+                                printable(File->DrawnAs.Source)));
   // In the frame of the scene as it is drawn.
   A.Options.Surface = joined(*OwnMesh, *AddedMesh, S->Origin);
   for (const auto &Checked :
@@ -590,6 +635,11 @@ Runner addRender(CLI::App &App) {
       App, A->Page,
       "Write a page with the breakdown of the frame time (implies --time)");
   addDrawOptions(App, *A);
+  Group.next("Picture");
+  addChoice(App, "--renderer", A->Options.Kind,
+            {RendererKind::Splat, RendererKind::Ray},
+            "Evaluation of a Gaussian: as a footprint on the picture, or where "
+            "it is densest on each pixel's ray (docs/cameras.md)");
   Group.next("Accuracy and speed");
   App.add_flag("--overlap", A->Overlap,
                "With several pictures, overlap the preparation of one with the "

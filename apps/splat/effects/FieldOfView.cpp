@@ -9,6 +9,8 @@ namespace vorion::splat {
 namespace {
 
 Finding detect(const EffectInputs &In) {
+  if (In.Options.Kind == RendererKind::Ray)
+    return {false, "rays have no Jacobian", false};
   if (!In.Options.Optics->HoldsSlopes)
     return {false, "this camera has no limits of x/z and y/z", false};
   if (In.Options.Rolling)

@@ -15,6 +15,8 @@ Finding detect(const EffectInputs &In) {
   if (In.Options.Through != Spread::Jacobian || In.Options.Rolling)
     return {false, "not with the unscented transform or rolling shutters",
             false};
+  if (In.Options.Kind == RendererKind::Ray)
+    return {false, "the records of rays have places from their boxes", false};
   const bool IsWide = In.Facts.Side > Widest;
   return {IsWide,
           fmt::format("a side of {} pixels; more than {} need windows",

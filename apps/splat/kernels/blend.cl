@@ -73,13 +73,19 @@
 // A list's entry without its tag.
 #define GAUSSIAN(entry) ((entry) & (USE_INTERSECT_TAGS ? ~SPANS_TILES : ~0u))
 
+#if USE_RAYS
+#include "ray_density.cl"
+#else
+#define FROM_PIXEL(g, p, axis) ((g)->mean[axis] - (p))
+
 // The exponent of a Gaussian's density, (dx, dy) from its mean.
-static float power_at(__local const splat_gaussian *g, float dx, float dy) {
+static float power_at(__local const splat_record *g, float dx, float dy) {
   return -0.5f * (g->conic[0] * dx * dx + g->conic[2] * dy * dy) -
          g->conic[1] * dx * dy;
 }
+#endif
 
-static float alpha_of(__local const splat_gaussian *g, float power,
+static float alpha_of(__local const splat_record *g, float power,
                       uint effects) {
   const float unclamped = g->opacity * DENSITY(power);
   return USE_ALPHA_CLAMP ? fmin(0.99f, unclamped) : unclamped;
@@ -102,16 +108,16 @@ typedef struct {
 
 // Blends the first `entries` of the batch, which is `before` entries behind the
 // list's first, into the pixel with centre (px, py).
-static pixel_state blend_batch(__local const splat_gaussian *batch,
+static pixel_state blend_batch(__local const splat_record *batch,
                                uint entries, uint before, float px, float py,
                                float cutoff, uint effects, pixel_state p) {
   for (uint j = 0; j < entries; ++j) {
-    __local const splat_gaussian *g = &batch[j];
+    __local const splat_record *g = &batch[j];
 #if USE_MESH
     p.done |= before + j >= p.limit;
 #endif
-    const float dx = g->mean[0] - px;
-    const float dy = g->mean[1] - py;
+    const float dx = FROM_PIXEL(g, px, 0);
+    const float dy = FROM_PIXEL(g, py, 1);
 #if USE_LAYERS
     if (before + j < p.from)
       continue;
@@ -146,7 +152,7 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void
-blend(__global const splat_gaussian *records, __global const uint *list,
+blend(__global const splat_record *records, __global const uint *list,
       __global const uint2 *ranges, __global float4 *pixels,
       __global uint *last,
 #if USE_MESH
@@ -156,7 +162,7 @@ blend(__global const splat_gaussian *records, __global const uint *list,
       __global const uint *tile_layers, uint layer,
 #endif
       uint width, uint height, float cutoff, uint effects) {
-  __local splat_gaussian batch[BATCH];
+  __local splat_record batch[BATCH];
   __local uint live;
 
   const uint item = get_local_id(0);

@@ -13,9 +13,10 @@
 #define CROP_SPACE VIEW_SPACE
 #endif
 
-static float beside_ray(VIEW_SPACE const splat_view *view,
-                        CROP_SPACE const splat_crop *crop, int axis, float x,
-                        float y, float z) {
+// As the sum of two floats.
+static float2 beside_ray2(VIEW_SPACE const splat_view *view,
+                          CROP_SPACE const splat_crop *crop, int axis, float x,
+                          float y, float z) {
   const float part[3] = {x, y, z};
   float2 beside = (float2)(-crop->start[axis], -crop->start_low[axis]);
 #pragma unroll
@@ -29,6 +30,13 @@ static float beside_ray(VIEW_SPACE const splat_view *view,
     const float2 next = two_sum(beside.x, high);
     beside = (float2)(next.x, beside.y + (next.y + low));
   }
+  return beside;
+}
+
+static float beside_ray(VIEW_SPACE const splat_view *view,
+                        CROP_SPACE const splat_crop *crop, int axis, float x,
+                        float y, float z) {
+  const float2 beside = beside_ray2(view, crop, axis, x, y, z);
   return beside.x + beside.y;
 }
 

@@ -3,10 +3,11 @@
 // its weights times depths, and nothing that draws the picture knows of it.
 
 #include "layout.h"
+#include "record.h"
 
 // `depths`: the keys that project wrote. What no tile sees has no record.
 __kernel void depths_for_colors(__global const uint *depths,
-                                __global splat_gaussian *records, uint count) {
+                                __global splat_record *records, uint count) {
   const uint i = get_global_id(0);
   if (i >= count || depths[i] >= CULLED)
     return;

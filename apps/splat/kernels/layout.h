@@ -15,7 +15,20 @@ typedef struct {
   uint tag;        ///< number, and SPANS_TILES where it does
 } splat_gaussian;
 
-enum { RECORD_WORDS = 12 }; ///< of a splat_gaussian
+/// One Gaussian as rays meet it. The same bytes as `vx_ray_gaussian`
+/// (docs/primitives.md, "Rays").
+typedef struct {
+  uint first,
+      last;      ///< pixels of the box, both ends included: column | row << 16
+  float mean[2]; ///< centre, px from the centre of pixel `first`
+  float factor[3]; ///< a, b, c of (a dx + b dy)^2 + (c dy)^2
+  float slope[2];  ///< of the plane that is 1 at the mean, 1/px
+  float near;      ///< 1 over the square of the distance of the rays' origin
+  float opacity;   ///< 0 to 1
+  float color[3];  ///< red, green, blue
+  uint tag;        ///< number, and SPANS_TILES where it does
+  uint unused;
+} splat_ray_gaussian;
 
 /// A camera, ready for projection.
 typedef struct {
@@ -205,7 +218,11 @@ typedef struct {
 
 /// Local memory that a group of project.cl is given, and with what lies behind
 /// the view.
-enum { PROJECT_LOCAL_BYTES = 2048, LENS_LOCAL_BYTES = 2304 };
+enum {
+  PROJECT_LOCAL_BYTES = 2048,
+  LENS_LOCAL_BYTES = 2304,
+  RAYS_LOCAL_BYTES = 2560 ///< where records are of rays
+};
 
 /// What blending gives back of a Gaussian (docs/abi.md, "Backward"): the words
 /// of vr_grad_r to vr_grad_syy.

@@ -5,6 +5,7 @@
 #include "covariance.cl"
 #include "layout.h"
 #include "planes.h"
+#include "record.h"
 
 // A Gaussian's normal is its shortest axis, the first of equal ones, on the side
 // that the camera sees; in the world's axes.
@@ -28,7 +29,7 @@ static float3 normal_of(VIEW_SPACE const splat_view *view,
 __kernel void normals_for_colors(__constant const splat_view *view,
                                  __global const float *geometry,
                                  __global const uint *depths,
-                                 __global splat_gaussian *records, uint count,
+                                 __global splat_record *records, uint count,
                                  uint stride) {
   const uint at = get_global_id(0);
   if (at >= count || depths[at] >= CULLED)

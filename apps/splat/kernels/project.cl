@@ -34,6 +34,7 @@
 #if LENS_CLOSES
 #include "project_copies.cl"
 #endif
+#include "record.h"
 
 // x - x is 0 for finite x and NaN otherwise.
 static bool all_finite(float a, float b) { return (a - a) + (b - b) == 0.0f; }
@@ -43,6 +44,10 @@ static float finite_zero(float a, float b, float c) {
   return (a - a) + (b - b) + (c - c);
 }
 
+#if USE_RAYS
+#include "rays.cl"
+#endif
+
 // The depth key, the record and the rectangle; if the Gaussian is culled, the
 // key alone has a meaning. In blocks, `geometry` and `sh` are where its words
 // of the first planes are. Each step begins with its own loads, so that little
@@ -50,7 +55,7 @@ static float finite_zero(float a, float b, float c) {
 static uint project_one(__local workspace *c, __global const float *geometry,
                         __global const float *sh, uint count, uint i, uint lane,
                         uint effects, __local uint *unread,
-                        __local splat_gaussian *restrict g, uint2 *rectangle) {
+                        __local splat_record *restrict g, uint2 *rectangle) {
   const float px = GEOMETRY(PLANE_MEAN);
   const float py = GEOMETRY(PLANE_MEAN + 1);
   const float pz = GEOMETRY(PLANE_MEAN + 2);
@@ -92,6 +97,13 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   const float3 d = from_camera(view, (float3)(px, py, pz));
   const float x = w[0] * d.x + w[1] * d.y + w[2] * d.z;
   const float y = w[3] * d.x + w[4] * d.y + w[5] * d.z;
+#if USE_RAYS
+  const uint culled = meet_rays(view, &c->crop, (float3)(px, py, pz), x, y, z,
+                                activated, unit, i, effects, g, rectangle);
+  if (culled != 0)
+    return culled;
+  const float zero = 0.0f;
+#else
 #if HAS_LENS
 #if LENS_BY_DISTANCE
   const float3 p = (float3)(x, y, w[6] * d.x + w[7] * d.y + w[8] * d.z);
@@ -215,6 +227,7 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   g->tag =
       USE_INTERSECT_TAGS && (x1 - x0 > 1 || y1 - y0 > 1) ? i | SPANS_TILES : i;
   *rectangle = make_rectangle(x0, y0, x1, y1);
+#endif
 
   *unread = asked0 ^ asked1 ^ asked2;
   const float3 color = sh_color(sh, count, i, d, effects);

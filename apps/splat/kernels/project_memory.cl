@@ -16,6 +16,7 @@
 #pragma vorion choice effect USE_CROP
 
 #include "layout.h"
+#include "record.h"
 #include "lens_model.cl"
 
 // Work-items of a group.
@@ -72,7 +73,7 @@ typedef struct {
   uint lines[1 + SH_AHEAD][LANES]; // from a lane's own word to one it asks for
   uint latest;                     // beginning of the last line with a record
   union {
-    splat_gaussian records[LANES];
+    splat_record records[LANES];
     uint words[LANES * RECORD_WORDS];
   } stage;
   uint unread[LANES]; // written, so that it is known by then
@@ -97,7 +98,10 @@ typedef struct {
   float reach[LANES]; // extents before pixel_extent, along x
 #endif
 } workspace;
-#if HAS_LENS || USE_CROP
+#if USE_RAYS
+_Static_assert(sizeof(workspace) <= RAYS_LOCAL_BYTES,
+               "kernels/layout.h has too few");
+#elif HAS_LENS || USE_CROP
 _Static_assert(sizeof(workspace) <= LENS_LOCAL_BYTES,
                "kernels/layout.h has too few");
 #else

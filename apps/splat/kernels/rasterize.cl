@@ -27,8 +27,9 @@
 
 #include <vorion_raster.h>
 
-_Static_assert(sizeof(splat_gaussian) == sizeof(vx_gaussian),
-               "kernels/layout.h and docs/abi.md disagree");
+_Static_assert(sizeof(splat_gaussian) == sizeof(vx_gaussian) &&
+                   sizeof(splat_ray_gaussian) == sizeof(vx_ray_gaussian),
+               "kernels/layout.h and docs/isa.md disagree");
 _Static_assert(SPANS_TILES == VR_INTERSECT,
                "kernels/layout.h and docs/isa.md disagree");
 _Static_assert(DATAPATH_EXP == VR_OPTIONS_EXP_SHIFT &&
@@ -51,7 +52,7 @@ _Static_assert(sizeof(vx_tail) == TAIL_BYTES &&
 // What the commands of a picture share.
 typedef struct {
   // Addresses; `last` is that of the tiles' counts with KEEP_COUNTS.
-  __global const splat_gaussian *records;
+  __global const splat_record *records;
   uint list, output, last, tails;
   splat_blend_options o;
 #if USE_MESH
@@ -96,6 +97,9 @@ static void start_part(const picture_commands *c, uint tile, uint part,
 #ifdef KEEP_LAST
   vx_raster_keep_last(c->last + first_pixel * (uint)sizeof(uint));
 #endif
+#if USE_RAYS
+  vx_raster_rays();
+#endif
 #if USE_MESH
   vx_raster_limit(c->limits + (y * c->o.size[0] + x) * (uint)sizeof(uint),
                   begin);
@@ -119,7 +123,7 @@ static uint pixels_of(const splat_blend_options *o) {
 
 // Jobs are (tile, part), tiles by `tile_order`, the parts of a tile together.
 // `pixels` has `parts` pictures.
-static void start_jobs(__global const splat_gaussian *records,
+static void start_jobs(__global const splat_record *records,
                        __global const uint *list, __global const uint2 *ranges,
                        __global const uint *tile_order,
                        __global float4 *pixels, __global uint *last,
@@ -174,7 +178,7 @@ static void wait_for_jobs(__global uint *statuses) {
 }
 
 __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
-rasterize(__global const splat_gaussian *records, __global const uint *list,
+rasterize(__global const splat_record *records, __global const uint *list,
           __global const uint2 *ranges, __global const uint *tile_order,
           __global float4 *pixels, __global uint *last, __global uint *tails,
 #if USE_MESH
@@ -198,7 +202,7 @@ rasterize(__global const splat_gaussian *records, __global const uint *list,
 // The two halves of that: between them other kernels may run, while the
 // rasterizers and pixel units work.
 __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
-rasterize_start(__global const splat_gaussian *records,
+rasterize_start(__global const splat_record *records,
                 __global const uint *list, __global const uint2 *ranges,
                 __global const uint *tile_order, __global float4 *pixels,
                 __global uint *last, __global uint *tails,

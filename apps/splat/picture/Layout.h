@@ -10,6 +10,7 @@ using uint = uint32_t;
 #include "kernels/layout.h"
 
 static_assert(sizeof(splat_gaussian) == 48, "docs/abi.md: vx_gaussian");
+static_assert(sizeof(splat_ray_gaussian) == 64, "docs/isa.md: vx_ray_gaussian");
 static_assert(sizeof(splat_blend_options) == 48,
               "4-byte members without padding");
 static_assert(sizeof(splat_density) == 24, "4-byte members without padding");

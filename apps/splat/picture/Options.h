@@ -29,6 +29,10 @@ enum class Dealing { Lists, LastFrame };
 /// at its mean, or by seven of its points (3DGUT's unscented transform).
 enum class Spread { Jacobian, Unscented };
 
+/// How a Gaussian is evaluated: as a footprint on the picture, or where it is
+/// densest on each pixel's ray.
+enum class RendererKind { Splat, Ray };
+
 /// By which depth a pixel blends Gaussians: that of their centres, or that
 /// along the pixel's own ray.
 enum class PixelOrder { Depth, Ray };
@@ -46,6 +50,9 @@ constexpr std::string_view name(DepthFormat F) {
 }
 constexpr std::string_view name(PixelOrder O) {
   return O == PixelOrder::Depth ? "depth" : "ray";
+}
+constexpr std::string_view name(RendererKind K) {
+  return K == RendererKind::Splat ? "splat" : "ray";
 }
 constexpr std::string_view name(Dealing D) {
   return D == Dealing::Lists ? "lists" : "last-frame";
@@ -82,6 +89,7 @@ struct Mesh;
 
 /// The options of one picture that reach the device.
 struct RenderOptions {
+  RendererKind Kind = RendererKind::Splat;
   Rules Convention = Rules::Inria;
   Support Reach = Support::Exact;
   Path Blending = Path::Raster;
@@ -188,7 +196,8 @@ struct RenderOptions {
   }
 };
 
-/// Applies the rendering mode of the scene's file, or the user's override.
+/// Applies the rendering mode of the scene's file, or the user's override; rays
+/// have neither dilation nor what makes up for it.
 void drawAs(RenderOptions &O, const Drawing &D);
 
 } // namespace vorion::splat

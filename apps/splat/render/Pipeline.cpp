@@ -205,9 +205,12 @@ std::optional<cl_uint> Pipeline::numberOf(uint32_t Range) const {
 void Pipeline::project(const Camera &C) {
   writeCamera(C);
   const uint32_t Count = Current.drawn();
-  Current.Records = Launch.allocate("projected Gaussians",
-                                    sizeof(splat_gaussian) * LINE_WORDS *
-                                        uint64_t{blocksOf(Count)});
+  const std::size_t RecordBytes = Plan.done(effects::Rays)
+                                      ? sizeof(splat_ray_gaussian)
+                                      : sizeof(splat_gaussian);
+  Current.Records =
+      Launch.allocate("projected Gaussians",
+                      RecordBytes * LINE_WORDS * uint64_t{blocksOf(Count)});
   Current.Depths.Keys = words("depths", Count);
   Current.Rectangles = words("tile rectangles", 2 * uint64_t{Count});
   const std::size_t Items = Launch.device().groupsAtOnce() * Lanes;
@@ -227,8 +230,9 @@ void Pipeline::project(const Camera &C) {
                  .items = Seen,
                  .count = Current.Gaussians.Count,
                  .verdicts = Verdicts,
-                 .w = cl::Local(hasMoreThanView() ? LENS_LOCAL_BYTES
-                                                  : PROJECT_LOCAL_BYTES)});
+                 .w = cl::Local(Plan.done(effects::Rays) ? RAYS_LOCAL_BYTES
+                                : hasMoreThanView()      ? LENS_LOCAL_BYTES
+                                                    : PROJECT_LOCAL_BYTES)});
   std::vector<splat_seen> Host(Items);
   Launch.read("what is seen", Host.data(), Seen, sizeof(splat_seen) * Items);
   uint64_t Pairs = 0;

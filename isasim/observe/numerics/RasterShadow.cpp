@@ -273,7 +273,7 @@ void RasterShadow::Replay::blend(const Gaussian &G, uint32_t GaussianNumber,
   for (size_t N = 0; N != Fragments.size(); ++N)
     Exps[N] = Fragments[N].Power;
   Lanes.Exp[raster::expRow(Task.Units.Exp)](Exps.data(), Exps.size());
-  blendFunction(Task, Lanes)(G, Task.Blend, T.Real);
+  blendFunction<Gaussian>(Task, Lanes)(G, Task.Blend, T.Real);
   for (size_t N = 0; N != Fragments.size(); ++N) {
     X = Fragments[N].Column;
     Y = Fragments[N].At / Side;
@@ -353,8 +353,8 @@ void RasterShadow::finish(const Job &Task, const Tile &T) {
 void RasterShadow::rasterCommand(const raster::CommandWork &W) {
   const Job &Task = W.What;
   // Gradients go to the core, which follows them no further. What a tile has
-  // loaded is not there any more.
-  if (Task.Refusal || Task.IsBackward || Task.Units.isOpaque() ||
+  // loaded is not there any more. Other kinds than conics have no shadow.
+  if (Task.Refusal || Task.IsBackward || !Task.Units.isConic() ||
       Task.LoadsPixels)
     return;
   auto T = std::make_unique<Tile>();

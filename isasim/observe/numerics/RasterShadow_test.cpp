@@ -85,8 +85,8 @@ void brokenExp(float *Values, std::size_t Count) {
 BoxWork brokenTransmittance(const Gaussian &G, const BlendOptions &Options,
                             TileBuffer &Tile) {
   std::vector<float> Before(Tile.T, Tile.T + TileBuffer::Pixels);
-  const BoxWork W =
-      datapaths().back()->Blend[VR_EXP_EXACT][VR_BLEND_FP32](G, Options, Tile);
+  const BoxWork W = datapaths().back()->Conics.Of[VR_EXP_EXACT][VR_BLEND_FP32](
+      G, Options, Tile);
   for (unsigned N = 0; N != TileBuffer::Pixels; ++N)
     if (Tile.T[N] != Before[N])
       Tile.T[N] *= 0.999F;
@@ -171,7 +171,7 @@ TEST_F(RasterShadowTest, ABrokenExponentialIsPinned) {
 
 TEST_F(RasterShadowTest, ABrokenTransmittanceIsPinnedAndNoReplay) {
   Datapath Broken = *datapaths().back();
-  Broken.Blend[VR_EXP_EXACT][VR_BLEND_FP32] = brokenTransmittance;
+  Broken.Conics.Of[VR_EXP_EXACT][VR_BLEND_FP32] = brokenTransmittance;
   const RasterFindings F = render(scene(), {}, Broken);
   EXPECT_NEAR(at(F, RasterStage::Transmittance).OwnMax, 0.001, 1e-5);
   for (const RasterStage S :

@@ -56,7 +56,7 @@ using Lanes =
 /// Of opaque primitives.
 using SurfaceLane = std::array<DatapathUnit, 2>;
 
-/// By row of FrontEnds; the conic's is not used.
+/// By row of FrontEnds; those of kinds that blend are not used.
 std::span<const DatapathUnit> surfaceLane(uint8_t FrontEnd) {
   static const std::vector<SurfaceLane> All = [] {
     std::vector<SurfaceLane> Made;
@@ -67,16 +67,19 @@ std::span<const DatapathUnit> surfaceLane(uint8_t FrontEnd) {
   return All[FrontEnd < All.size() ? FrontEnd : 0];
 }
 
+/// By row of FrontEnds; those of opaque kinds are not used.
 const Lane &laneOf(raster::LaneUnits Units) {
-  static const Lanes All = [] {
-    Lanes Made;
-    for (std::size_t E = 0; E != Made.size(); ++E)
-      for (std::size_t B = 0; B != Made[E].size(); ++B)
-        Made[E][B] = {FrontEndParts[0], ExpParts[E], AlphaUnit, BlendParts[B],
-                      GatherUnit};
+  static const auto All = [] {
+    std::array<Lanes, std::size(FrontEndParts)> Made;
+    for (std::size_t F = 0; F != Made.size(); ++F)
+      for (std::size_t E = 0; E != Made[F].size(); ++E)
+        for (std::size_t B = 0; B != Made[F][E].size(); ++B)
+          Made[F][E][B] = {FrontEndParts[F], ExpParts[E], AlphaUnit,
+                           BlendParts[B], GatherUnit};
     return Made;
   }();
-  return All[Units.Exp < All.size() ? Units.Exp : 0]
+  return All[Units.FrontEnd < All.size() ? Units.FrontEnd : 0]
+            [Units.Exp < raster::ExpUnitCount ? Units.Exp : 0]
             [Units.Blend < raster::BlendUnitCount ? Units.Blend : 0];
 }
 

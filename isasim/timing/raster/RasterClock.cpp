@@ -410,9 +410,9 @@ void RasterClock::dispatch(const GaussianWork &G) {
     spend(RasterCycle::Hazard, Safe - DispatchAt);
   Lanes.enter(G, DispatchAt, P.Cycles);
   Spent.LaneSlots += P.Slots;
-  if (task().Units.isOpaque())
+  if (!task().Units.isConic())
     OfLanes.Covered[frontEndOf(task().Units)] += P.Slots;
-  else
+  if (!task().Units.isOpaque())
     OfLanes.Evaluated[expOf(task().Units)] += P.Slots;
   spend(RasterCycle::Blend, std::max<uint64_t>(P.Cycles, Timing.ClipCycles));
   BlendedAt = DispatchAt;

@@ -451,6 +451,27 @@ TEST_F(RasterClockTest, TrianglesHaveTheirOwnLaneAndOutput) {
   EXPECT_LT(laneDepth({.FrontEnd = 1}), laneDepth({}));
 }
 
+TEST_F(RasterClockTest, RaysHaveADeeperLaneAndPixelsLikeOthers) {
+  CommandWork W = triangles({box(0, 0, 32, 64)});
+  const RasterTime Conics = timeOf([&] {
+    CommandWork C = W;
+    C.What.Units.FrontEnd = 0;
+    C.What.OutputPitch = 64 * 16;
+    return C;
+  }());
+  W.What.Units.FrontEnd =
+      vorion::raster::frontEndRowOf(vorion::raster::VR_PRIMITIVE_RAY);
+  W.What.OutputPitch = 64 * 16;
+  const vorion::raster::LaneUnits Units = W.What.Units;
+  const RasterTime T = timeOf(std::move(W));
+  EXPECT_EQ(of(T, RasterCycle::Blend), of(Conics, RasterCycle::Blend));
+  EXPECT_EQ(of(T, RasterCycle::Drain), of(Conics, RasterCycle::Drain));
+  // By a divider and a stage.
+  EXPECT_EQ(of(T, RasterCycle::Flush), of(Conics, RasterCycle::Flush) + 9);
+  EXPECT_EQ(laneDepth(Units), laneDepth({}) + 9);
+  EXPECT_GT(laneArea(Units), laneArea({}));
+}
+
 TEST_F(RasterClockTest, LoadedDepthsAreReadFirst) {
   const auto BeginOf = [&](bool Loads) {
     CommandWork W = triangles({});

@@ -18,8 +18,8 @@ struct LaneWork {
   std::array<uint64_t, raster::ExpUnitCount> Evaluated{};
   std::array<uint64_t, raster::BlendUnitCount> Blended{};
   uint64_t Gradients = 0; ///< of pixels, in the backward mode
-  /// Pixels that lanes got of opaque primitives, by row of FrontEnds, and those
-  /// that were covered and in front.
+  /// Pixels that lanes got of other primitives than conics, by row of
+  /// FrontEnds, and those of opaque ones that were covered and in front.
   std::array<uint64_t, std::size(raster::FrontEnds)> Covered{};
   uint64_t Passed = 0;
   uint64_t Moved = 0;      ///< pixels cleared, loaded or stored with their tile

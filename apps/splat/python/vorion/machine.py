@@ -145,8 +145,8 @@ class Machine:
                simt_group: int | None = None, effects: str | None = None,
                near: float | None = None, projection: str | None = None, order: str | None = None,
                ray_window: int | None = None, cull_blocks: bool | None = None, energy: bool | None = None,
-               technology: str | None = None, voltage: float | None = None, subpixel_bits: int | None = None,
-               mesh_depth: str | None = None, filter_bits: int | None = None) -> Picture:
+               technology: str | None = None, voltage: float | None = None, given_chip: bool | None = None,
+               subpixel_bits: int | None = None, mesh_depth: str | None = None, filter_bits: int | None = None) -> Picture:
         """Draws `scene` as `camera` sees it.
 
         mesh: triangles that are drawn with the Gaussians (docs/meshes.md)
@@ -178,6 +178,7 @@ class Machine:
         ray_window: Gaussians that it finds at a time by "ray": 4, 8 or 16; changes no bit
         cull_blocks: leave out blocks of Gaussians of which a pinhole sees none; changes no bit
         energy, technology, voltage: run the clock, and count joules with a file of a process node, at volts
+        given_chip: count them also given the published area and power of the technology's chip
         subpixel_bits, mesh_depth, filter_bits: approximations of a mesh (docs/meshes.md)
         """
         _check(scene, Scene, "scene")
@@ -189,6 +190,7 @@ class Machine:
                        "near": near, "projection": projection, "order": order,
                        "ray_window": ray_window, "cull_blocks": cull_blocks, "depth_as": depth_as,
                        "contributors": contributors, "energy": energy, "technology": technology, "voltage": voltage,
+                       "given_chip": given_chip,
                        "subpixel_bits": subpixel_bits, "mesh_depth": mesh_depth, "filter_bits": filter_bits})
         image, alpha, by, report = self._native.render(scene._native, camera._native, _native_mesh(mesh), asked, depth,
                                                        normals, visible, time)
