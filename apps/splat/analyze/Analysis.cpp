@@ -1,8 +1,11 @@
 #include "analyze/Analysis.h"
 
+#include "reference/BlendCounts.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace vorion::splat {
 namespace {
@@ -27,6 +30,43 @@ Invocations invocationsOf(const Splats &S, reference::Support Reach, int Width,
   return Sum;
 }
 
+/// Of those of \p Values that are not 0.
+Distribution distributionOf(std::vector<uint32_t> Values) {
+  std::erase(Values, 0U);
+  Distribution D;
+  D.Count = Values.size();
+  if (Values.empty())
+    return D;
+  std::ranges::sort(Values);
+  uint64_t Sum = 0;
+  for (const uint32_t V : Values)
+    Sum += V;
+  D.Mean = static_cast<double>(Sum) / static_cast<double>(D.Count);
+  for (std::size_t Percent = 0; Percent < D.Percentiles.size(); ++Percent)
+    D.Percentiles[Percent] = Values[Percent * (Values.size() - 1) / 100];
+  return D;
+}
+
+/// A bin's middle stands for what is in it.
+Distribution alphasOf(const reference::BlendCounts &Counts) {
+  Distribution D;
+  for (const uint64_t Count : Counts.ByAlpha)
+    D.Count += Count;
+  if (D.Count == 0)
+    return D;
+  D.Mean = Counts.AlphaSum / static_cast<double>(D.Count);
+  uint64_t Below = 0;
+  std::size_t Bin = Counts.ByAlpha.size();
+  for (std::size_t Percent = 0; Percent < D.Percentiles.size(); ++Percent) {
+    while (Below <= Percent * (D.Count - 1) / 100)
+      Below += Counts.ByAlpha[--Bin];
+    D.Percentiles[Percent] =
+        std::pow(255.0, -(static_cast<double>(Bin) + 0.5) /
+                            static_cast<double>(Counts.ByAlpha.size()));
+  }
+  return D;
+}
+
 /// Every Gaussian's place from front to back.
 std::vector<uint32_t> ranksOf(const Splats &S) {
   std::vector<uint32_t> Ranks(S.size());
@@ -40,7 +80,9 @@ ListStatistics statisticsOf(const TileLists &T, const Picture<float> &P,
                             const std::vector<uint32_t> &Ranks) {
   ListStatistics S;
   S.Tiles = T.Lists.size();
+  std::vector<uint32_t> Lengths;
   for (const auto &List : T.Lists) {
+    Lengths.push_back(static_cast<uint32_t>(List.size()));
     S.Empty += List.empty();
     S.Longest = std::max<uint64_t>(S.Longest, List.size());
     const auto Bin = static_cast<std::size_t>(std::bit_width(List.size()));
@@ -49,6 +91,7 @@ ListStatistics statisticsOf(const TileLists &T, const Picture<float> &P,
     ++S.Histogram[Bin];
   }
   S.Mean = static_cast<double>(T.pairs()) / static_cast<double>(S.Tiles);
+  S.Filled = distributionOf(std::move(Lengths));
 
   std::array<uint64_t, 101> FullAt{};
   for (int Y = 0; Y < P.Height; ++Y)
@@ -117,6 +160,10 @@ Analysis analyze(const reference::Gaussians<float> &G,
       A.MeanTransmittance += P.Transmittance[I];
     }
     A.MeanTransmittance /= static_cast<double>(A.Pixels);
+    const auto Counts = reference::countBlends(S, C.Width, C.Height, O);
+    A.BlendsEach = distributionOf(Counts.Blends);
+    A.WalkedEach = distributionOf(Counts.Walked);
+    A.Alpha = alphasOf(Counts);
     const auto Ranks = ranksOf(S);
     for (std::size_t T = 0; T < AnalyzedTiles.size(); ++T)
       A.Lists[T] = statisticsOf(

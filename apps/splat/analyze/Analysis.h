@@ -23,6 +23,13 @@ inline constexpr std::array<reference::Support, 4> AnalyzedSupports = {
 /// so pairs of larger tiles are those that contain such a tile.
 using Invocations = std::array<uint64_t, AnalyzedTiles.size()>;
 
+/// How values are distributed; zeros where there are none.
+struct Distribution {
+  uint64_t Count = 0;
+  double Mean = 0;
+  std::array<double, 101> Percentiles{}; ///< from the least to the largest
+};
+
 /// Statistics of the lists for one tile size.
 struct ListStatistics {
   uint64_t Tiles = 0, Empty = 0, Longest = 0;
@@ -30,6 +37,7 @@ struct ListStatistics {
   /// Histogram of list lengths: [0] counts empty lists, [k] lists of 2^(k-1) to
   /// 2^k - 1 entries.
   std::vector<uint64_t> Histogram;
+  Distribution Filled; ///< entries of the lists that are not empty
   /// [p]: the fraction of all pixels that are saturated after p % of the
   /// entries of their tile's list.
   std::array<double, 101> Occluded{};
@@ -42,6 +50,9 @@ struct Analysis {
   std::array<ListStatistics, AnalyzedTiles.size()> Lists;
   uint64_t Pixels = 0, Covered = 0, Saturated = 0, Blends = 0;
   double MeanTransmittance = 0;
+  /// Blends of covered pixels; visited entries of pixels whose list of 16x16
+  /// is not empty; alpha of the blends.
+  Distribution BlendsEach, WalkedEach, Alpha;
 };
 
 /// Analyzes the view \p C of \p G. Projection and blending are those of \p O in

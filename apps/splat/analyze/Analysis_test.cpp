@@ -68,7 +68,17 @@ TEST(Analysis, PixelsAreOccludedWhereTheirListHasStoppedThem) {
     EXPECT_EQ(L.Occluded[30], 1);           // the third of ten entries
     EXPECT_EQ(L.Histogram.back(), L.Tiles); // 8 to 15 entries
     EXPECT_EQ(L.Histogram.size(), 5U);
+    EXPECT_EQ(L.Filled.Count, L.Tiles);
+    EXPECT_EQ(L.Filled.Mean, 10);
+    EXPECT_EQ(L.Filled.Percentiles[95], 10);
   }
+  // One is blended, the next ends the pixel.
+  EXPECT_EQ(A.BlendsEach.Count, A.Pixels);
+  EXPECT_EQ(A.BlendsEach.Mean, 1);
+  EXPECT_EQ(A.WalkedEach.Percentiles[50], 2);
+  EXPECT_EQ(A.Alpha.Count, A.Blends);
+  EXPECT_NEAR(A.Alpha.Mean, 0.99, 1e-6);
+  EXPECT_NEAR(A.Alpha.Percentiles[0], 0.99, 3e-3); // a bin's width
 }
 
 TEST(Analysis, NothingSeenIsNothingCounted) {
@@ -80,6 +90,8 @@ TEST(Analysis, NothingSeenIsNothingCounted) {
     EXPECT_EQ(I, (Invocations{}));
   EXPECT_EQ(reduction(A.BySupport[0], 0, 2), 0);
   EXPECT_EQ(A.MeanTransmittance, 1);
+  for (const Distribution &D : {A.BlendsEach, A.WalkedEach, A.Alpha})
+    EXPECT_EQ(D.Count, 0U);
 }
 
 } // namespace

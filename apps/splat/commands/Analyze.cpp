@@ -53,12 +53,17 @@ Json json(const Invocations &I) {
   return J;
 }
 
+Json json(const Distribution &D) {
+  return {{"count", D.Count}, {"mean", D.Mean}, {"percentiles", D.Percentiles}};
+}
+
 Json json(const ListStatistics &L) {
   return {{"tiles", L.Tiles},
           {"empty", L.Empty},
           {"mean", L.Mean},
           {"max", L.Longest},
           {"histogram_by_bits", L.Histogram},
+          {"filled", json(L.Filled)},
           {"occluded_by_percent", L.Occluded}};
 }
 
@@ -121,7 +126,10 @@ std::string jsonReport(const AnalyzeArguments &A, const SceneFile &F,
        {"blends_per_pixel", static_cast<double>(R.Blends) / Pixels},
        {"covered_share", static_cast<double>(R.Covered) / Pixels},
        {"saturated_share", static_cast<double>(R.Saturated) / Pixels},
-       {"mean_transmittance", R.MeanTransmittance}});
+       {"mean_transmittance", R.MeanTransmittance},
+       {"blends", json(R.BlendsEach)},
+       {"walked", json(R.WalkedEach)},
+       {"alpha", json(R.Alpha)}});
   if (Order)
     Report["order"] = {{"beside", A.OrderBeside},
                        {"pairs", Order->Pairs},
@@ -160,6 +168,15 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
   for (const std::size_t Percent : {25, 50, 75, 100})
     Row(fmt::format("occluded at {} % (%)", Percent).c_str(),
         [&](const auto &L) { return 100 * L.Occluded[Percent]; });
+  Text += fmt::format("{:<22}{:>12}{:>12}{:>12}\n", "where there are any",
+                      "mean", "median", "95 %");
+  const auto Spread = [&](const char *Name, const Distribution &D) {
+    Text += fmt::format("{:<22}{:>12.3f}{:>12.3f}{:>12.3f}\n", Name, D.Mean,
+                        D.Percentiles[50], D.Percentiles[95]);
+  };
+  Spread("blends of a pixel", R.BlendsEach);
+  Spread("entries it visits", R.WalkedEach);
+  Spread("alpha of a blend", R.Alpha);
   return Text;
 }
 

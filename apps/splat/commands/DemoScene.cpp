@@ -1,4 +1,5 @@
 #include "demo/DemoScene.h"
+#include "demo/BenchmarkScene.h"
 
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
@@ -13,10 +14,14 @@
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -25,7 +30,22 @@ namespace {
 struct DemoArguments {
   std::string Output = "demo.ply", Cameras, JsonFile;
   int Gaussians = demo::DefaultGaussians;
+  std::optional<demo::BenchmarkKind> Benchmark; ///< none: the still life
 };
+
+struct MadeScene {
+  Scene Gaussians;
+  std::vector<Camera> Cameras;
+};
+
+MadeScene make(const DemoArguments &A) {
+  if (!A.Benchmark)
+    return {demo::makeScene(A.Gaussians), demo::makeCameras()};
+  const demo::BenchmarkShape &Shape =
+      demo::benchmarkShape(*A.Benchmark, A.Gaussians);
+  return {demo::makeBenchmark(*A.Benchmark, Shape, A.Gaussians),
+          demo::benchmarkCameras(*A.Benchmark, Shape.Distance)};
+}
 
 /// \p Hash: of the scene's file.
 std::string jsonReport(const Scene &S, const std::string &Hash,
@@ -52,13 +72,12 @@ Expected<Success> run(const DemoArguments &A) {
           {{"-o", A.Output}, {"--cameras", A.Cameras}, {"--json", A.JsonFile}});
       !Claimed)
     return Claimed;
-  const Scene S = demo::makeScene(A.Gaussians);
+  const auto [S, Cameras] = make(A);
   const std::string File = formatPly(S);
   if (auto Written = writeFileAtomically(A.Output, File); !Written)
     return Written;
   printOut("{}: {}, SH degree {}\n", escaped(A.Output),
            counted(S.size(), "Gaussian"), S.ShDegree);
-  const std::vector<Camera> Cameras = demo::makeCameras();
   if (!A.JsonFile.empty())
     if (auto Written = writeFileAtomically(
             A.JsonFile, jsonReport(S, fnv1a64(File), Cameras));
@@ -90,6 +109,21 @@ Runner addDemoScene(CLI::App &App) {
                  fmt::format("Approximate number of Gaussians (default {})",
                              demo::DefaultGaussians))
       ->check(isBetween(demo::FewestGaussians, demo::MostGaussians));
+  using demo::BenchmarkKinds;
+  std::vector<std::string> Names(std::size(BenchmarkKinds));
+  std::ranges::transform(BenchmarkKinds, Names.begin(),
+                         [](demo::BenchmarkKind K) { return name(K); });
+  App.add_option_function<std::string>(
+         "--benchmark",
+         [A](const std::string &Chosen) {
+           A->Benchmark = *std::ranges::find(BenchmarkKinds, Chosen,
+                                             [](auto K) { return name(K); });
+         },
+         "Generate a scene of the benchmark set instead, whose lists, "
+         "occlusion and alpha are those of real scenes "
+         "(docs/tables/benchmark-set.md)")
+      ->option_text(fmt::format("{}", fmt::join(Names, "|")))
+      ->check(isOneOf(Names));
   return [A](const DeviceOptions &) { return run(*A); };
 }
 

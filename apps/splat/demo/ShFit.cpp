@@ -9,12 +9,7 @@
 
 namespace vorion::splat::demo {
 
-namespace {
-
-using Terms = std::array<double, ShTerms>;
-
-/// The basis in the order and with the signs of kernels/sh.cl.
-Terms basis(const glm::dvec3 &D) {
+std::array<double, ShTerms> shBasis(const glm::dvec3 &D) {
   const double X = D.x, Y = D.y, Z = D.z;
   const double XX = X * X, YY = Y * Y, ZZ = Z * Z;
   return {0.28209479177387814,
@@ -35,6 +30,10 @@ Terms basis(const glm::dvec3 &D) {
           -0.5900435899266435 * X * (XX - 3 * YY)};
 }
 
+namespace {
+
+using Terms = std::array<double, ShTerms>;
+
 struct Sample {
   glm::vec3 Direction;
   Terms Basis;
@@ -50,7 +49,7 @@ const std::vector<Sample> &samples() {
       const double R = std::sqrt(1 - Z * Z);
       const double Angle = I * std::numbers::pi * (3 - std::sqrt(5.0));
       const glm::dvec3 D(R * std::cos(Angle), R * std::sin(Angle), Z);
-      S.push_back({glm::vec3(D), basis(D)});
+      S.push_back({glm::vec3(D), shBasis(D)});
     }
     return S;
   }();
