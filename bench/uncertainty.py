@@ -5,13 +5,14 @@ usage: uncertainty.py SCENE --cameras FILE --view NAME --out FOLDER [--config MA
        uncertainty.py --parts
 
 What is drawn of values: each of the clock whose source says "ours" (vorion-sim --print-timing-parameters), from half to
-twice what it is; words and powers of two among their choices; the link, where the machine has one, in the interval
-of docs/prototype.md; a launch as 0, 2 or 20 us. Other switches stay, because they are choices and not values.
+twice what it is; words and powers of two among their choices; the link, where the machine has one, the sizes of L2 and
+last-level cache, launches and copies in the ranges of bench/priors.py. Other switches stay, because they are choices and
+not values.
 
 What is drawn of the model: the switches of the L2 that the RTL has otherwise, and for each part of a frame's time a factor
 in the range of what measurements leave open. A part is what units spent on some reasons (docs/time-report.md); --parts
-prints the parts, their ranges and the grounds. Both are drawn evenly in their logarithm, by a Latin hypercube: each of N
-equal parts of an interval is used once.
+prints the parts, their ranges and the grounds. All are drawn by a Latin hypercube: each of N equal parts of an interval, or
+of its logarithm, is used once. Some follow each other, as bench/priors.py says.
 
 Each sample draws the view with the rasterizer and, without --raster-only, with the cores alone. Prints the 5 to 95 %
 interval of the times and of their ratio: with drawn values alone, with drawn values and parts, and with drawn parts on the
@@ -22,86 +23,21 @@ FOLDER keeps each frame (docs/studies.md). Exit codes: 0 done, 1 a frame failed,
 import argparse
 import collections
 import json
-import math
-import random
 import statistics
-import subprocess
 
 import clocked
 import command_line
+import hypercube
+import priors
 import study
 import timed_frame
 
-LINK = {"l2_mhz": (100, 200), "to_l2_ns": (10, 100), "from_l2_ns": (10, 100), "to_l2_mbps": (1600, 12800),
-        "from_l2_mbps": (1600, 12800), "header_bytes": (4, 16)}
-# Named machines have neither, and the RTL that is the reference has both.
-SWITCHES = {("l2", "crossbar"): [0, 1], ("l2", "write_through"): [0, 1]}
-LAUNCH = [0, 2000, 20000]
-HOST_CONSTANTS = {"launch_ns", "copy_ns", "copy_mbps"}
-WORDS = {"address_map": ["digit_sum", "row_bank_column", "xor"], "refresh": ["rank", "none"]}
-POWERS_OF_TWO = {"channel_bytes": [64, 128, 256, 512, 1024]}
-
-# Parts of a frame's time: the range of the true time of a part in percent of ours, and its grounds. An error e of ours
-# over a reference makes 1 / (1 + e).
-PARTS = {
-    "instructions": (93, 107, "`project`, `sort` and `tiles` on 1, 2 and 4 cores with 1 and 2 warps are -6.1 to +7.3 % off the RTL; "
-                     "neither 8 cores nor the preset `forwarding` has a reference"),
-    "memory": (64, 162, "a core without a data cache, sockets on one L2, atomics and the last-level cache have no reference; loops of "
-               "16-line accesses on 2 and 4 cores, with all of the RTL's parameters, are -38.1 to +56.2 % off. DRAM's mixes, "
-               "within 1 % of Ramulator 2.1, are included"),
-    "stores on the link": (17, 100, "a store of a word is sent as a line, 72 bytes with its header; a link that sends only the word "
-                           "would send 12"),
-    "rasterizer": (99, 101, "tiles are -1.14 to +0.78 % off the circuit; several rasterizers and pixel units have no reference but the "
-                   "arithmetic of one"),
-}
 # The part of each reason. Reasons that are left out are waits for others that work: they follow the rest of their unit.
 CORES = {"launch": "launch", "link": "link", "raster_full": "rasterizer", "raster_wait": "rasterizer",
          **dict.fromkeys(("start", "issue", "fetch", "operand", "local", "unit", "slot", "branch", "divergence"), "instructions"),
          **dict.fromkeys(("memory", "lsu_queue", "fence"), "memory")}
 RASTERIZERS = {"link": "link", **dict.fromkeys(("blend", "clip", "hazard", "begin", "flush"), "rasterizer"),
                **dict.fromkeys(("fetch", "drain"), "memory")}
-
-
-def ours():
-    """(group, name) of every parameter whose source says "ours"."""
-    group = None
-    text = subprocess.run(["vorion-sim", "--print-timing-parameters"], check=True, capture_output=True, text=True).stdout
-    for line in text.splitlines():
-        if line.startswith("`timing."):
-            group = line.split("`")[1].removeprefix("timing.")
-        elif line.startswith("| `"):
-            cells = [cell.strip() for cell in line.split("|")]
-            if cells[-3] != "bool" and "ours" in cells[-2]:
-                yield group, cells[1].strip("`")
-
-
-def limits():
-    """By group, the schema's description of each value."""
-    text = subprocess.run(["vorion-sim", "--print-config-schema"], check=True, capture_output=True, text=True).stdout
-    groups = json.loads(text)["properties"]["timing"]["properties"]
-    return {group: description.get("properties", {}) for group, description in groups.items()}
-
-
-def dimensions(timing):
-    """By (group, name): the choices, or the two ends of an interval."""
-    found, schema = {}, limits()
-    for group, name in ours():
-        value = timing[group][name]
-        if group == "link":
-            continue
-        # Launches and copies are constants, or units with values of their own.
-        if group == "host" and (name in HOST_CONSTANTS) == bool(timing["host"]["dma_engines"]):
-            continue
-        if name in WORDS or name in POWERS_OF_TWO:
-            found[group, name] = (WORDS | POWERS_OF_TWO)[name]
-        elif value:  # 0 is none, or no bound
-            allowed = schema[group][name]
-            found[group, name] = (max(1, allowed["minimum"], value / 2), min(allowed["maximum"], value * 2))
-    if not timing["host"]["dma_engines"]:
-        found["host", "launch_ns"] = LAUNCH
-    if timing["link"]["l2_mhz"]:
-        found |= {("link", name): ends for name, ends in LINK.items()}
-    return found | SWITCHES | {("part", name): (low, high) for name, (low, high, _) in PARTS.items()}
 
 
 def mix(units, parts):
@@ -128,6 +64,11 @@ def shares(time):
     return found
 
 
+def longer(of, factors):
+    """How many times longer a run takes of which parts have shares, with factors in percent of its parts."""
+    return 1 + sum(share * (factors.get(part, 100) / 100 - 1) for part, share in of.items())
+
+
 def frame_ms(time, factors):
     """A frame's time from its report, with factors in percent of its parts."""
     total = 0
@@ -135,29 +76,8 @@ def frame_ms(time, factors):
         if stage["of_the_frame"]:
             total += stage["launch_ms"] + stage["copy_ms"]
             if run := stage.get("time"):
-                longer = sum(share * (factors.get(part, 100) / 100 - 1) for part, share in shares(run).items())
-                total += run["cycles"] / run["clock_mhz"] / 1000 * (1 + longer)
+                total += run["cycles"] / run["clock_mhz"] / 1000 * longer(shares(run), factors)
     return total
-
-
-def value_at(domain, part):
-    """A domain's value at \\p part of it, 0 to 1."""
-    if isinstance(domain, list):
-        return domain[int(part * len(domain))]
-    low, high = domain
-    return round(low * (high / low) ** part)
-
-
-def samples(domains, count, seed):
-    """A Latin hypercube: by (group, name), a value for each sample."""
-    rng = random.Random(seed)
-    drawn = [{} for _ in range(count)]
-    for key, domain in domains.items():
-        parts = [(n + rng.random()) / count for n in range(count)]
-        rng.shuffle(parts)
-        for sample, part in zip(drawn, parts):
-            sample[key] = value_at(domain, part)
-    return drawn
 
 
 def paths_of(args):
@@ -191,30 +111,15 @@ def results_of(paths, drawn, measured):
                   for path, time, base in zip(paths, own, as_it_is)}}
 
 
-def ranks(values):
-    order = sorted(range(len(values)), key=lambda n: values[n])
-    place = [0.0] * len(values)
-    at = 0
-    while at < len(order):
-        end = at
-        while end < len(order) and values[order[end]] == values[order[at]]:
-            end += 1
-        for n in order[at:end]:
-            place[n] = (at + end - 1) / 2
-        at = end
-    return place
-
-
 def followed(results):
     """(correlation, parameter) of those that the frame's time follows, strongest first: beyond chance at 99 %."""
-    share = 2.6 / math.sqrt(len(results))
     found = []
     for name, one in results[0]["values"].items():
         values = [r["values"][name] for r in results]
         if isinstance(one, str) or len(set(values)) == 1:
             continue
-        found.append((statistics.correlation(ranks(values), ranks([r["raster"][1] for r in results])), name))
-    return sorted((f for f in found if abs(f[0]) >= share), key=lambda f: -abs(f[0]))
+        found.append((hypercube.rank_correlation(values, [r["raster"][1] for r in results]), name))
+    return sorted((f for f in found if hypercube.is_beyond_chance(f[0], len(results))), key=lambda f: -abs(f[0]))
 
 
 def interval(values):
@@ -246,12 +151,13 @@ class PrintParts(argparse.Action):
     def __call__(self, parser, *_):
         reasons = {"stores on the link": ["cores and rasterizers: `link`, by the share of the link's busy cycles to the L2"]}
         for unit, parts in (("cores", CORES), ("rasterizers", RASTERIZERS)):
-            for part in PARTS:
-                if of := [f"`{reason}`" for reason, its in parts.items() if its == part]:
-                    reasons.setdefault(part, []).append(f"{unit}: {', '.join(of)}")
+            for factor in priors.in_group("part"):
+                if of := [f"`{reason}`" for reason, its in parts.items() if its == factor.name]:
+                    reasons.setdefault(factor.name, []).append(f"{unit}: {', '.join(of)}")
         print("| part | reasons | true time, % of ours | grounds |\n|---|---|---|---|")
-        for part, (low, high, grounds) in PARTS.items():
-            print(f"| {part} | {'; '.join(reasons[part])} | {low} to {high} | {grounds} |")
+        for factor in priors.in_group("part"):
+            low, high = factor.domain
+            print(f"| {factor.name} | {'; '.join(reasons[factor.name])} | {low} to {high} | {factor.grounds} |")
         parser.exit()
 
 
@@ -270,7 +176,7 @@ def main():
         parser.error(f"--samples is {args.samples}, expected 3 or more")
 
     default = timed_frame.machine(args.config)
-    drawn = [{}, *samples(dimensions(default["timing"]), args.samples, args.seed)]  # the first is the machine as it is
+    drawn = [{}, *priors.samples(priors.domains(default["timing"]), args.samples, args.seed)]  # the first is the machine as it is
     base, *results = results_of(paths_of(args), drawn, study.measure(list(points_of(args, default, drawn)), args.out, args.jobs))
     table(base, results)
 

@@ -146,7 +146,7 @@ def text(data):
         done. Where one tile holds much of the scene, as in guitar front, even 16 times as many pixels do not suffice. Splitting such
         tiles [gained nothing](../ideas-methods.md#splitting-heavy-tiles)."""), ""]
     out += [f"## The scaled machine is {joint.SCALED_GAIN:g} times as fast as the prototype", "",
-            paragraph(f"""Frames a second, one after the other, of the first view of each scene. Its parts are eight times as many, and its clock
+            paragraph("""Frames a second, one after the other, of the first view of each scene. Its parts are eight times as many, and its clock
                 is 500 MHz for 530: that gives 7.55. More comes from memory alone."""), ""]
     out += _cross(data["gain"], ("machine", "scene"), lambda row: _marked(row["gain"], lambda g: g >= joint.SCALED_GAIN, f"{row['gain']:.2f}x"))
     out += ["## The scaled machine is not limited by memory bandwidth", "",

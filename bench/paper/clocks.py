@@ -35,7 +35,7 @@ def measure(store, all_scenes, _every_view):
         results = store.all([run_at(scene, view, machine, c) for c in CLOCKS])
         times = [r.frame_ms(result) for result in results]
         a, b, off = fit(CLOCKS, times)
-        return {"scene": scene.name, "view": view, "machine": machine, "clocks_mhz": CLOCKS, "frame_ms": times,
+        return {"scene": scene.name, "view": view, "machine": machine, "gaussians": r.gaussians(results[-1]), "clocks_mhz": CLOCKS, "frame_ms": times,
                 "fps": [result["time"]["fps"] for result in results], "mcycles": a, "ms": b, "largest_ms_off": off,
                 "command": results[-1]["command"], "slow_command": results[0]["command"]}
 

@@ -1,71 +1,128 @@
 """docs/paper-results.md and its pages, one a section, from the sections' results."""
 
+import json
 import os
 
 import claims
+import earlier
 import joint
+import lines
 import writing
-from verdicts import DEPENDS, HOLDS, IF, NOT, NOT_COMPARABLE
+from verdicts import CONFIDENCE, HOLDS, LEAST, MOST, NOT, OPEN, interval_text, ratios, share_text, span, verdict
 
-HEAD = f"""# The paper's results, measured here
-
-`scripts/paper.sh` makes this page (at most six hours of two cores, resumable); do not edit it. Each
-figure of the paper about rendering and training stands beside ours. The page behind each claim has
-tables, the ratio to the paper's figure, what bounds it, and the command. Of claims that do not hold
-a page says [what would make them hold](paper/changes.md).
+HEAD = "# The paper's results, measured here"
+METHOD = f"""## How to read this page
 
 | | |
 |---|---|
-| machines | the paper's text allows two cores: `prototype` and `scaled` have the core `vortex-5stage`, `prototype-forwarding` and `scaled-forwarding` the core `forwarding` ([model.md](model.md#machines-that-have-a-name)). No parameter is fitted to a result |
-| workloads | for its rates the table in the paper's figure 9 names the scene Train, which we do not have. Nothing names a resolution, a number of Gaussians or a kernel. Ours were chosen before measuring: 960x544, two of the scenes also 1920x1088, INRIA's rules, support `exact`. What is not measured is named |
+| machines | the paper's text allows two cores, `vortex-5stage` and `forwarding` ([model.md](model.md#machines-that-have-a-name)). No parameter is fitted to a result |
+| workloads | for its rates the table in the paper's figure 9 names the scene Train, of about 1 M Gaussians, which we do not have. Nothing names a resolution or a kernel |
 | a frame | from projecting to the finished picture, with its launches and small copies, without uploading a scene or reading the picture back |
-| *serial* | one frame after the other |
-| *overlapped* | a frame in the time of the longest of the paper's three stages. This is a bound: it charges nothing for stages that use memory at the same time, and with queues of four commands `--overlap` reaches little of it ([rates](paper/rates.md)) |
-| baselines | kernels on the same machine without its rasterizers: *our fastest*, and *the official algorithm, step by step*: 16x16 tiles, a work-item a pixel, the exponential for every pixel of a tile and every Gaussian of its list |
+| *serial*, *overlapped* | one frame after the other, or a frame in the time of the longest of the paper's three stages: a bound, because nothing is charged for stages that share memory ([rates](paper/rates.md)) |
+| baselines | kernels on the same machine without its rasterizers: *our fastest*, and *the official algorithm, step by step*: tiles of 16x16, a work-item a pixel, the exponential for every pixel of a tile and every Gaussian of its list |
+| draws | every choice of ours and every value that no source states [is drawn at random](paper/draws.md): the link, launches, copies, queues, the core, caches, the baseline, the pipeline, and the error of the model |
+| *ours* | the median, with 5 and 95 % of the trials |
+| *holds in* | the trials in which a claim holds, with Wilson's interval of the share, {100 * CONFIDENCE:.0f} %. Trials are draws; where a claim was not drawn, they are views or iterations on both cores |
+| {HOLDS} | in at least {100 * MOST:.0f} % of the trials |
+| {NOT} | in at most {100 * LEAST:.0f} % |
+| {OPEN} | otherwise, and where there is no rule |
 
-A view reaches a figure if it has at least as much; "about" is within a factor of 2.
+A view reaches a figure if it has at least as much; "about" is within a factor of 2. Power and area
+are estimated, not measured ([energy.md](energy.md)). Kernels are compiled for Zicond, Zba, Zbb and
+Zbs, which the paper does not name; [what they gain](backend.md#extensions) is 1 to 4 % of a frame."""
+# Beside the page, what it has of each claim: a run that measures only some sections takes the others from there.
+KEPT = "claims.json"
 
-| verdict | of the views measured |
-|---|---|
-| {HOLDS} | every one reaches the figure, on both cores |
-| {IF} | some do, and they are named |
-| {NOT} | none does, on either core |
-| {DEPENDS} | some view on one core does, and none on the other |
-| {NOT_COMPARABLE} | some or all do: the figure is a rate, and a rate depends on the size of the pictures and the number of Gaussians, which the paper does not say |
 
-Power and area are estimated, not measured ([energy.md](energy.md)): a claim about them holds if
-even the 95 % of the interval keep to it, does not hold if even the 5 % do not, and is open
-otherwise.
+def _row(claim, trials, section, of):
+    large = claims.large_of(claim, trials)
+    values = [trial.value for trial in large or trials]
+    held = claims.held(claim, large or trials)
+    row = {"key": claim.key, "group": claim.group, "section": section, "of": claim.section, "short": claim.short, "claim": claim.words, "paper": claim.paper,
+            "ours": interval_text(values, claim.unit), "verdict": verdict(held, len(values)), "held": share_text(held, len(values), of)}
+    if not large:
+        # What less work does not reach, more does not either.
+        row.update(verdict=NOT if not held and claim.less_is_easier else OPEN, held=f"{row['held']}, all smaller than the paper's")
+    return row
 
-Kernels are compiled for Zicond, Zba, Zbb and Zbs, which the paper does not name. [What they
-gain](backend.md#extensions) is 1 to 4 % of a frame on both paths.
-"""
+
+def _estimated_row(group, section, row):
+    """A row of a section that has an interval of each figure, and a verdict of its own."""
+    said = row["verdict"] if row["verdict"] in (HOLDS, NOT, OPEN) else OPEN
+    held = row.get("held", "" if said == row["verdict"] else row["verdict"])
+    return {"key": row.get("key", row["claim"]), "group": group, "section": section, "of": section, "short": row.get("short", row["claim"]), "claim": row["claim"], "paper": row["paper"],
+            "ours": row["ours"], "verdict": said, "held": held}
+
+
+def _trials_of(section):
+    return {"training": "iterations", "scaling": "views", "tiles": "counts of views"}.get(section, "views, cores and ways")
+
+
+def rows_of(sections):
+    """A row for each claim that was measured, of the draws where all of them have it."""
+    found = {}
+    for name, data in sections.items():
+        if name in claims.ESTIMATED:
+            group, make = claims.ESTIMATED[name]
+            found.update({row["key"]: row for row in (_estimated_row(group, name, row) for row in make(data) if row)})
+        elif name != "draws":
+            found.update({claim.key: _row(claim, trials, name, _trials_of(name)) for claim, trials in claims.of_section(name, data)})
+    if drawn := sections.get("draws"):
+        found.update({claim.key: _row(claim, trials, "draws", "draws") for claim, trials in claims.of_draws(drawn, drawn["count"])})
+    return found
+
+
+def ordered(rows):
+    """In the order of claims.py, and behind them those that sections make."""
+    known = list(claims.BY_KEY)
+    return sorted(rows.values(), key=lambda row: (claims.GROUPS.index(row["group"]), known.index(row["key"]) if row["key"] in known else len(known)))
 
 
 def _anchored(page, title):
     return f"[{title}](paper/{page}.md)"
 
 
-def _claims(name, module, rows):
-    return ["| " + " | ".join((row["claim"], row["paper"], f"**{row['verdict']}**", row["ours"],
-                               _anchored(name, module.TITLE.lower()))) + " |" for row in rows]
+def _groups(rows):
+    out = []
+    for group in claims.GROUPS:
+        lines_of = [(row["claim"], row["paper"], row["ours"], f"**{row['verdict']}**", row["held"], _anchored(row["section"], row["section"])) for row in rows
+                    if row["group"] == group]
+        lines_of += [(claim, paper, ours, f"**{said}**", "measured by itself", page) for of, claim, paper, said, ours, page in claims.ELSEWHERE if of == group]
+        if lines_of:
+            out += [f"## {group[0].upper()}{group[1:]}", "", *writing.table(("claim", "paper", "ours", "verdict", "holds in", "details"), lines_of)]
+    return out
 
 
-def _earlier(file, name):
-    """The claims that an earlier run left in the document, if their page is there, too."""
-    if not os.path.exists(file) or not os.path.exists(os.path.join(os.path.dirname(os.path.abspath(file)), "paper", name + ".md")):
+def _changed(rows):
+    """Verdicts that are others than on the page before, and why."""
+    changed = []
+    for row in rows:
+        said, why, *shown = earlier.VERDICTS.get(row["key"], (row["verdict"], ""))
+        if said != row["verdict"]:
+            changed.append((row["claim"], *(shown or [said]), row["verdict"], why))
+    if not changed:
         return []
-    with open(file, encoding="utf-8") as f:
-        return [line for line in f.read().split("\n") if line.startswith("| ") and line.endswith(f"(paper/{name}.md) |")]
+    return ["## Verdicts that changed", "", writing.paragraph(earlier.HEAD), "", *writing.table(("claim", "before", "now", "why"), changed)]
 
 
-def _details(rows):
-    """What stands behind each claim of a page: a table, and each command once with the claims that it decides."""
-    commands = {}
-    for number, row in enumerate(rows, 1):
-        commands.setdefault(row["command"] or "bench/invocations.py", []).append(number)
-    cells = [(number, row["claim"], f"**{row['verdict']}**", row["ratio"], row["bound"]) for number, row in enumerate(rows, 1)]
-    out = ["## Claims", "", *writing.table(("", "claim", "verdict", "ours over the paper's", "bound"), cells)]
+def _details(name, data):
+    """What stands behind each claim of a section: a table of its views, and each command once with the claims that it decides."""
+    found = claims.of_section(name, data)
+    if name in claims.ESTIMATED:
+        cells = [(row["claim"], f"**{row['verdict']}**", row["ratio"], row["ours"]) for row in claims.ESTIMATED[name][1](data) if row]
+        return ["## Claims", "", *writing.table(("claim", "verdict", "ours over the paper's", "ours"), cells)]
+    if not found:
+        return []
+    commands, cells = {}, []
+    for claim, trials in found:
+        for kind in dict.fromkeys(trial.kind for trial in trials):
+            of = [trial for trial in trials if trial.kind == kind]
+            cells.append((len(cells) + 1, claim.words + (f": {kind}" if kind else ""), f"{claims.held(claim, of)} of {len(of)}",
+                          ratios(of, claim.number) if claim.number else "", span(of, claim.unit)))
+            best = max(of, key=lambda trial: trial.value)
+            commands.setdefault(best.command or "bench/invocations.py", []).append(len(cells))
+    out = ["## Claims", "", "Commands are for the root of the repository, after `. scripts/env.sh`, of the view that has the most.", "",
+           *writing.table(("", "claim", "views that keep to it", "ours over the paper's", "ours"), cells)]
     for command, numbers in commands.items():
         out += [f"- {', '.join(map(str, numbers))}:", f"  `{command}`"]
     return [*out, ""]
@@ -73,18 +130,12 @@ def _details(rows):
 
 def _made_by(data):
     clocks = "".join(f" Version {v} of the clock." for v in data.get("clocks", ()))
-    return f"Made by `scripts/paper.sh`; do not edit.{clocks} Programs: build " + ", ".join(f"`{b}`" for b in data["builds"]) + "."
+    builds = " Programs: build " + ", ".join(f"`{b}`" for b in data["builds"]) + "." if data.get("builds") else ""
+    return f"[The paper's results](../paper-results.md). Made by `scripts/paper.sh`; do not edit.{clocks}{builds}"
 
 
-def _page(name, module, data, rows, images):
-    out = [f"# {module.TITLE}", "", "[The paper's results](../paper-results.md). " + _made_by(data) if data["builds"]
-           else "[The paper's results](../paper-results.md). Made by `scripts/paper.sh`; do not edit.", ""]
-    if data.get("left_out"):
-        out += [f"*{len(data['left_out'])} points were [not measured](#not-measured).*", ""]
-    if rows:
-        out += ["Commands are for the root of the repository, after `. scripts/env.sh`. The numbers are those of the claims. Each "
-                "command is of the view that has the most, or of the one that decides.", "", *_details(rows)]
-    out += module.text(data)
+def _page(name, module, data, images):
+    out = [f"# {module.TITLE}", "", _made_by(data), "", *_details(name, data), *module.text(data)]
     for title, described in module.charts(data).items():
         os.makedirs(images, exist_ok=True)
         builds = "; programs: build " + ", ".join(data["builds"]) if data["builds"] else ""
@@ -92,7 +143,7 @@ def _page(name, module, data, rows, images):
         _write(os.path.join(images, f"paper-{title}.svg"), svg)
         out += [f"![{module.TITLE}](../images/paper-{title}.svg)", ""]
     if data.get("left_out"):
-        out += ["## Not measured", "", *(f"- {point}" for point in data["left_out"]), ""]
+        out += ["## Not measured", "", f"{len(data['left_out'])} of the points:", "", *(f"- {point}" for point in data["left_out"][:20]), ""]
     return out
 
 
@@ -102,8 +153,16 @@ def _write(file, text):
     os.replace(file + ".new", file)
 
 
-def _lines(lines):
-    return "\n".join(writing.wrapped("\n".join(lines).split("\n"))).rstrip("\n") + "\n"
+def _lines(some):
+    return "\n".join(writing.wrapped("\n".join(some).split("\n"))).rstrip("\n") + "\n"
+
+
+def _kept(file):
+    try:
+        with open(file, encoding="utf-8") as f:
+            return json.load(f)
+    except FileNotFoundError:
+        return {"rows": {}, "facts": {}}
 
 
 def write(file, sections):
@@ -111,40 +170,42 @@ def write(file, sections):
     folder = os.path.dirname(os.path.abspath(file))
     pages, images = os.path.join(folder, "paper"), os.path.join(folder, "images")
     os.makedirs(pages, exist_ok=True)
-    found, earlier = [], set()
-    for name, (module, data) in sections.items():
-        if not data:
-            if rows := _earlier(file, name):
-                earlier.add(name)
-                found.append((name, module, rows))
-            continue
-        rows = [row for row in claims.OF[name](data) if row] if name in claims.OF else []
-        found.append((name, module, _claims(name, module, rows)))
-        _write(os.path.join(pages, name + ".md"), _lines(_page(name, module, data, rows, images)))
     measured = {name: data for name, (_, data) in sections.items() if data}
-    versions = sorted({v for data in measured.values() for v in data.get("clocks", ())})
-    out = [HEAD, "**Measured with version " + ", ".join(map(str, versions)) + " of the clock**"
-           f" ([model.md](model.md#versions-of-the-clock)). Each run counted in full, even beside others, they took {_hours(measured)} of wall time.", "",
-           "## Claims", "", "| claim | paper | verdict | ours | details |", "|---|---|---|---|---|",
-           *(row for _, _, rows in found for row in rows), ""]
-    out += [f"- {what}: {said}." for what, said in claims.ELSEWHERE] + [""]
-    out += [f"## {joint.TITLE}", ""]
+    for name, data in measured.items():
+        _write(os.path.join(pages, name + ".md"), _lines(_page(name, sections[name][0], data, images)))
     if "rates" in measured and "speedup" in measured:
-        out += joint.text(measured["rates"], measured["speedup"])
+        measured["joint"] = {"rows": joint.rows_of(measured["rates"], measured["speedup"])}
         _write(os.path.join(pages, "joint.md"), _lines(joint.page(measured["rates"], measured["speedup"])))
-    else:
-        out += ["Not measured: it needs sections rates and speedup.", ""]
-    out += ["## Pages", ""]
-    out += [f"- {_anchored(name, module.TITLE)}" for name, module, _ in found] + [""]
-    left = [f"- {module.TITLE}: not in the last run. Its claims are those of an earlier build, which its page names. `scripts/paper.sh --sections {name}`."
-            for name, (module, _) in sections.items() if name in earlier]
-    left += [f"- {module.TITLE}{': ' + claims.OPEN[name] if name in claims.OPEN else ''}. `scripts/paper.sh --sections {name}`."
-            for name, (module, data) in sections.items() if not data and name not in earlier]
+    before = _kept(os.path.join(pages, KEPT))
+    # A claim stays as an earlier run left it while neither its section nor the draws have it.
+    rows = {**before["rows"], **{key: row for key, row in rows_of(measured).items() if row["section"] == "draws" or
+                                 before["rows"].get(key, {}).get("section") != "draws" or "draws" in measured}}
+    facts = {**before["facts"], **lines.facts(measured)}
+    _write(os.path.join(pages, KEPT), json.dumps({"rows": rows, "facts": facts}, indent=1, ensure_ascii=False) + "\n")
+    in_order = ordered(rows)
+    versions = sorted({v for data in measured.values() for v in data.get("clocks", ())})
+    out = [HEAD, "", *lines.ten(in_order, facts), "",
+           "`scripts/paper.sh` makes this page (resumable); do not edit it. The page behind each claim has tables, views and commands; one says"
+           " [what would make claims hold](paper/changes.md).",
+           *([f"Measured with version {', '.join(map(str, versions))} of the clock ([model.md](model.md#versions-of-the-clock)), in {_hours(measured)}"
+              " of wall time, each run counted in full."] if versions else []), "",
+           *_groups(in_order), *lines.short_of_size(facts), *_changed(in_order), METHOD, ""]
+    if "joint" in measured:
+        out += [f"## {joint.TITLE}", "", *joint.text(measured["rates"], measured["speedup"])]
+    out += ["## Pages", "", *(f"- {_anchored(name, module.TITLE)}" for name, (module, _) in sections.items()
+                              if os.path.exists(os.path.join(pages, name + ".md"))), ""]
+    left = [f"- {module.TITLE}: {_not_measured(name, rows)}. `scripts/paper.sh --sections {name}`." for name, (module, data) in sections.items() if not data]
     left += [f"- {module.TITLE}: {len(data['left_out'])} points, which [its page](paper/{name}.md) names."
-            for name, (module, data) in sections.items() if data and data.get("left_out")]
+             for name, (module, data) in sections.items() if data and data.get("left_out")]
     if left:
         out += ["## Not measured", "", *left]
     _write(file, _lines(out))
+
+
+def _not_measured(name, rows):
+    if any(row["section"] == name for row in rows.values()):
+        return "not in the last run. Its claims are those of an earlier build, which its page names"
+    return claims.OPEN.get(name, "not in the last run")
 
 
 def _hours(measured):

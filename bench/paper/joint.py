@@ -61,7 +61,7 @@ def text(rates, speedup):
 
 def page(rates, speedup):
     rows = rows_of(rates, speedup)
-    out = [f"# {TITLE}", "", paragraph("""[The paper's results](../paper-results.md#all-at-once). Made by `scripts/paper.sh`; do not
+    out = [f"# {TITLE}", "", paragraph("""[The paper's results](../paper-results.md#against-kernels). Made by `scripts/paper.sh`; do not
         edit. A row has a prototype, and the scaled machine with the same core. A figure that is met is bold. *official*: the
         baseline that is the official algorithm, step by step."""), ""]
     lines = []

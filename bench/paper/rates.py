@@ -18,6 +18,11 @@ def in_turn(scene, machine):
     return Run(scene, "all", machine, ("--path", "raster", "--overlap"))
 
 
+def in_sequence(scene, machine, clock=0):
+    """All views of a scene by one command, one after the other, with the caches as the one before left them."""
+    return Run(scene, "all", machine, ("--path", "raster"), clock)
+
+
 def _row(store, scene, view, prototype):
     scaled = machines.SCALED[prototype]
     whole, slow, large = store.all([raster(scene, view, prototype), raster(scene, view, prototype, SLOW),
@@ -26,7 +31,7 @@ def _row(store, scene, view, prototype):
     for pipeline, milliseconds in (("serial", r.frame_ms), ("overlapped", r.overlapped_ms)):
         rates[pipeline] = {"fps": 1e3 / milliseconds(whole), "slow_fps": 1e3 / milliseconds(slow),
                            "scaled_fps": 1e3 / milliseconds(large), "gain": milliseconds(whole) / milliseconds(large)}
-    return {"scene": scene.name, "view": view, "machine": prototype, "scaled": scaled,
+    return {"scene": scene.name, "view": view, "machine": prototype, "scaled": scaled, "gaussians": r.gaussians(whole),
             "clock_mhz": whole["time"]["sum"]["clock_mhz"], "frame_cycles": r.frame_cycles(whole),
             "blend_cycles": r.stage_cycles(whole, "blend"), **rates, "command": whole["command"],
             "slow_command": slow["command"], "scaled_command": large["command"]}
@@ -43,11 +48,23 @@ def _turn(store, scene, machine):
             "bound_ms": serial - kernels + kernels * max(blend, whole - blend) / whole, "command": together["command"]}
 
 
+def _sequence(store, scene, machine, clock):
+    together, *alone = store.all([in_sequence(scene, machine, clock), *(raster(scene, v, machine, clock) for v in scene.views)])
+    later = together["time"]["latency_ms"][1:]
+    return {"scene": scene.name, "view": "all", "machine": machine, "clock_mhz": together["time"]["sum"]["clock_mhz"],
+            "pictures": len(alone), "alone_fps": 1e3 * len(alone) / sum(map(r.frame_ms, alone)),
+            "fps": 1e3 * len(alone) / together["time"]["total_ms"], "later_fps": 1e3 * len(later) / sum(later) if later else None,
+            "command": together["command"]}
+
+
 def measure(store, all_scenes, _every_view):
     places = [(store, scene, view, m) for m in machines.PROTOTYPES for scene in all_scenes for view in scene.views]
     store.prepare([run for _, s, v, m in places
                    for run in (raster(s, v, m), raster(s, v, m, SLOW), raster(s, v, machines.SCALED[m]))])
-    return {"rows": store.rows(places, _row),
+    first = machines.PROTOTYPES[0]
+    sequences = [(store, scene, m, clock) for scene in all_scenes
+                 for m, clock in ((first, 0), (first, SLOW), (machines.SCALED[first], 0))]
+    return {"rows": store.rows(places, _row), "sequences": store.rows(sequences, _sequence),
             "turns": store.rows([(store, scene, m) for m in machines.PROTOTYPES for scene in all_scenes], _turn)}
 
 
@@ -71,6 +88,13 @@ def text(data):
                        f"{row[pipeline]['fps']:.1f}", f"{row[pipeline]['slow_fps']:.1f}",
                        f"{row[pipeline]['scaled_fps']:.1f}", f"{row[pipeline]['gain']:.2f}x")
                       for row in rows for pipeline in ("serial", "overlapped")])
+    if data.get("sequences"):
+        out += ["## Frames in sequence", "", paragraph("""All views of a scene by one command, one after the other: a rate, as the
+            paper's figure is. The caches are as the frame before left them. The first frame also activates the scene; *later* are the
+            others."""), ""]
+        out += table(("scene", "machine", "MHz", "pictures", "each alone, frames/s", "in sequence", "later ones"),
+                     [(row["scene"], f"`{row['machine']}`", row["clock_mhz"], row["pictures"], f"{row['alone_fps']:.2f}", f"{row['fps']:.2f}",
+                       f"{row['later_fps']:.2f}" if row["later_fps"] else "") for row in data["sequences"]])
     if data["turns"]:
         out += ["## Overlapped in fact", "", paragraph("""All views of a scene by one command. `--view all
             --overlap` prepares one view while another is blended, with the queue of four commands that `timing.raster` has."""), ""]

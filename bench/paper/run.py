@@ -21,9 +21,11 @@ import choices  # noqa: E402
 import clocks  # noqa: E402
 import depth  # noqa: E402
 import document  # noqa: E402
+import draws  # noqa: E402
 import energy  # noqa: E402
 import identical  # noqa: E402
 import invocations  # noqa: E402
+import others  # noqa: E402
 import rates  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
@@ -34,10 +36,15 @@ import tiles  # noqa: E402
 import training  # noqa: E402
 
 SECTIONS = {"rates": rates, "choices": choices, "speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth,
-            "scaling": scaling, "tiles": tiles, "identical": identical, "energy": energy, "changes": changes, "training": training}
-# The scenes of the tables, chosen before anything was measured, and those that are drawn larger, too.
-SCENES = ("guitar", "truck", "garden_outdoor")
-LARGE, LARGE_WIDTH = ("guitar", "truck"), 1920
+            "scaling": scaling, "tiles": tiles, "identical": identical, "energy": energy, "changes": changes, "training": training,
+            "draws": draws, "others": others}
+# What is measured unless --sections says otherwise: all but the hours of other documents.
+DEFAULT = [name for name in SECTIONS if name != "others"]
+# The scenes of the tables, which anybody can make, and after them the private ones, chosen before anything was measured, where
+# they are beside the repository; and those that are drawn larger, too.
+SCENES = ("object-100k", "outdoor-100k", "outdoor-1m")
+PRIVATE = ("guitar", "truck", "garden_outdoor")
+LARGE, LARGE_WIDTH = ("object-100k", "outdoor-100k", "guitar", "truck"), 1920
 WITH_LARGE = (rates, speedup)
 
 
@@ -48,20 +55,24 @@ def parse_arguments():
     parser.add_argument("--document", default=os.path.join(scenes.ROOT, "docs", "paper-results.md"), metavar="FILE",
                         help="what to write (default docs/paper-results.md); beside it a page a section in paper/, charts in images/")
     parser.add_argument("--scenes", nargs="+", metavar="NAME",
-                        help=f"scenes of ../shared/data (default: {' '.join(SCENES)}; section tails: "
-                        f"{' '.join(tails.SCENES)}; section tiles: all)")
+                        help=f"scenes of the benchmark set and of ../shared/data (default: {' '.join(SCENES)}, and where "
+                        f"they are {' '.join(PRIVATE)}; section tails: {' '.join(tails.SCENES)}; section tiles: all)")
     parser.add_argument("--scene", nargs=2, metavar=("FILE", "CAMERAS"), help="any other scene instead")
     parser.add_argument("--large", nargs="*", default=LARGE, metavar="NAME",
                         help=f"those that sections rates and speedup draw {LARGE_WIDTH} pixels wide, too (default: {' '.join(LARGE)})")
     parser.add_argument("--captures", nargs="+", metavar="NAME",
-                        help="captures of ../shared/data, or folders, that section training measures (default: "
+                        help="captures of the benchmark set and of ../shared/data, or folders, that section training measures (default: "
                         f"{' '.join(training.DEFAULT_CAPTURES)})")
     parser.add_argument("--iterations", type=int, default=1050, metavar="N",
                         help="of training before those that section training measures (default 1050)")
-    parser.add_argument("--sections", nargs="+", choices=SECTIONS, default=list(SECTIONS),
-                        help="what to measure (default: all)")
+    parser.add_argument("--sections", nargs="+", choices=SECTIONS, default=DEFAULT,
+                        help="what to measure (default: all but others)")
     parser.add_argument("--widths", nargs="+", type=int, default=invocations.WIDTHS, metavar="PX",
                         help="picture widths of the counts")
+    parser.add_argument("--draws", type=int, default=draws.COUNT, metavar="N", help=f"draws of section draws (default {draws.COUNT})")
+    parser.add_argument("--draw-scenes", nargs="+", choices=scenes.PUBLIC, default=draws.SCENES, metavar="NAME",
+                        help=f"scenes of the benchmark set that section draws draws (default: {' '.join(draws.SCENES)})")
+    parser.add_argument("--draw-widths", nargs="+", type=int, default=(), metavar="PX", help="their picture widths (default: as they are)")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at a time (default 1)")
     parser.add_argument("--every-view", action="store_true",
                         help="try all twelve choices of the kernels on all views, not on two of each scene")
@@ -69,23 +80,29 @@ def parse_arguments():
     parser.add_argument("--only-kept", action="store_true",
                         help="run nothing: write what there is, and leave out the rest")
     args = parser.parse_args()
-    if args.jobs < 1 or args.iterations < 1:
-        parser.error(f"--jobs is {args.jobs} and --iterations {args.iterations}, expected at least 1")
+    if args.jobs < 1 or args.iterations < 1 or args.draws < 3:
+        parser.error(f"--jobs is {args.jobs}, --iterations {args.iterations} and --draws {args.draws}, expected at least 1, 1 and 3")
     return args
 
 
 def chosen(args):
-    """The scenes of the frames and those of the counts."""
+    """The scenes of the frames, those of section tails, and those of the counts."""
     if args.scene:
         one = [scenes.given(*args.scene)]
-        return one, one
-    known = scenes.known()
+        return one, one, one
+    known = (*scenes.PUBLIC, *scenes.known())
     unknown = [name for name in args.scenes or () if name not in known]
-    if not known or unknown:
-        print(f"paper.sh: error: no scene {unknown[0]} in ../shared/data, expected one of: {' '.join(known)}" if known else
-              "paper.sh: error: no ../shared/data, expected scenes there, or --scene FILE CAMERAS", file=sys.stderr)
+    if unknown:
+        print(f"paper.sh: error: no scene {unknown[0]}, expected one of: {' '.join(known)}", file=sys.stderr)
         sys.exit(3)
-    return [scenes.shared(n) for n in args.scenes or SCENES], [scenes.shared(n) for n in args.scenes or known]
+
+    def named(names):
+        return [scenes.named(name) for name in dict.fromkeys(names) if name in known]
+
+    if args.scenes:
+        return (named(args.scenes),) * 3
+    frames = (*SCENES, *PRIVATE)
+    return named(frames), named(tails.SCENES), named(known if "tiles" in args.sections else frames)
 
 
 def larger(args, frames):
@@ -94,9 +111,18 @@ def larger(args, frames):
     return [scenes.at_width(scene, LARGE_WIDTH, folder) for scene in frames if scene.name in args.large]
 
 
+def drawn_scenes(args):
+    """The scenes of section draws, each with the scene to whose size its figures are scaled."""
+    if args.scene:
+        return [(scenes.given(*args.scene), None)]
+    targets = {kind: scenes.generated(f"{kind}-{draws.TARGET}") for kind in {name.split("-")[0] for name in args.draw_scenes}}
+    return [(scenes.generated(name), targets[name.split("-")[0]]) for name in args.draw_scenes]
+
+
 def captures_of(args):
     """The captures of section training; where none are named, those that are there."""
-    named = [training.Capture.named(name, args.out) for name in args.captures or training.DEFAULT_CAPTURES]
+    names = args.captures or [name for name in training.DEFAULT_CAPTURES if not args.only_kept or training.is_written(name)]
+    named = [training.Capture.named(name, args.out) for name in names]
     gone = [capture for capture in named if not capture.is_there()]
     if args.captures and gone:
         print(f"paper.sh: error: no capture {gone[0].path}, expected one of ../shared/data or a folder", file=sys.stderr)
@@ -106,7 +132,7 @@ def captures_of(args):
 
 def main():
     args = parse_arguments()
-    frames, counts = chosen(args) if set(args.sections) - {"training"} else ([], [])
+    frames, tailed, counts = chosen(args) if set(args.sections) - {"training", "draws"} else ([], [], [])
     captures = captures_of(args) if "training" in args.sections else []
     large = larger(args, frames)
     store = runs.Runs(args.out, args.jobs, args.keep, args.only_kept)
@@ -116,8 +142,10 @@ def main():
         try:
             if module is tiles:
                 data = module.measure(store, counts, args.every_view, tuple(args.widths))
-            elif module is tails and not (args.scenes or args.scene):
-                data = module.measure(store, [scenes.shared(name) for name in tails.SCENES], args.every_view)
+            elif module is tails:
+                data = module.measure(store, tailed, args.every_view)
+            elif module is draws:
+                data = module.measure(store, drawn_scenes(args), args.draw_widths, args.draws)
             elif module is training:
                 data = module.measure(store, captures, args.every_view, args.iterations)
             else:

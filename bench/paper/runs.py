@@ -89,6 +89,7 @@ class Runs:
     def __init__(self, folder, jobs, keep, only_kept):
         self.folder, self.jobs, self.keep, self.only_kept = folder, jobs, keep, only_kept
         self.found = {}  # results by point's name, without what no section reads
+        self.missing = set()  # names of points that were looked for, and are to be left out
         self.begin_section()
         os.makedirs(folder, exist_ok=True)
         if os.path.isdir(earlier := os.path.join(folder, "runs")):
@@ -99,11 +100,15 @@ class Runs:
 
     def measured(self, points, trimmed=lambda report: report):
         """The results of some points, in order; those that are missing are measured, or else raise Missing."""
-        points = [dataclasses.replace(point, any_build=point.any_build or self.keep) for point in points]
+        points = [self._of_builds(point) for point in points]
+        for point in points:
+            if point.name in self.missing:
+                raise Missing(point.name)
         new = list({point.name: point for point in points if point.name not in self.found}.values())
         results = study.kept(new, self.folder) if self.only_kept else study.measure(new, self.folder, self.jobs)
         for point, result in zip(new, results, strict=True):
             if result is None:
+                self.missing.add(point.name)
                 raise Missing(point.name)
             self.found[point.name] = {**result, "report": trimmed(result["report"])}
         for point in points:
@@ -111,6 +116,9 @@ class Runs:
             self.builds.add(result["made_from"]["programs"])
             self.seconds[point.name] = result["seconds"]
         return [self.found[point.name] for point in points]
+
+    def _of_builds(self, point):
+        return dataclasses.replace(point, any_build=point.any_build or self.keep)
 
     def all(self, wanted):
         """The reports of some runs, in order, with what the sections know besides; as measured(). All are of one kind."""
@@ -127,9 +135,17 @@ class Runs:
         self.builds, self.clocks, self.left_out, self.seconds = set(), set(), [], {}
 
     def prepare(self, wanted):
-        """Makes all runs that a section will ask for, several at a time."""
+        """Makes all runs that a section will ask for, several at a time; where only kept ones are taken, finds those at once."""
+        wanted = list(wanted)
         if not self.only_kept:
             self.all(wanted)
+            return
+        points = {run.name(): self._of_builds(run.point()) for run in wanted if run.name() not in self.found}
+        for run, result in zip(points, study.kept(list(points.values()), self.folder), strict=True):
+            if result is None:
+                self.missing.add(run)
+            else:
+                self.found[run] = {**result, "report": wanted[0].trimmed(result["report"])}
 
     def those_there(self, wanted):
         """The results of some runs, by what `wanted` has them under; without those that all() would raise Missing for, which
@@ -194,6 +210,11 @@ def kernel_cycles(result, kernel):
 def stage_instructions(result, stage):
     return sum(k["counters"]["warp_instructions"] for s in result["stages"] if s["name"] == stage
                for k in s["kernels"])
+
+
+def gaussians(result):
+    """Of the scene, drawn or not."""
+    return result["counts"]["visible"] + sum(result["counts"]["culled"].values())
 
 
 def frame_cycles(result):

@@ -9,6 +9,7 @@ import statistics
 import struct
 from dataclasses import dataclass
 
+import benchmark_capture
 import machines
 import runs as r
 import scaling
@@ -26,7 +27,11 @@ CAPTURES = {
 # A capture with so many points to begin with, at its smallest size, of which no kernels are timed: rates follow the number of
 # Gaussians. The state is that after a few iterations, because the clock hardly depends on how far a training is.
 MANY = {"carving_colmap-600000": ("carving_colmap", 600_000, 10)}
-DEFAULT_CAPTURES = ("chair_synthetic", "carving_colmap", *MANY)
+# Gaussians of the benchmark set's garden, beside photographs of the largest at the size of the paper's Train, as if trained up to
+# INRIA's first evaluation point: nobody has to train them. An iteration of each is timed.
+MADE = {"garden-100k": 100_000, "garden-600k": 600_000, "garden-1m": 1_000_000}
+MADE_OF, MADE_AFTER = "outdoor-1m", 7050
+DEFAULT_CAPTURES = (*MADE, "chair_synthetic", "carving_colmap", *MANY)
 SHARED = os.path.join("..", "shared", "data", "captures")
 TIMED = 3  # iterations after the state, each of another view; at a capture's larger sizes one, which takes as long
 # The kernels' choices of tile and group. The way back has groups of 16 whatever the way forward has, and keeps a tile in local
@@ -57,6 +62,11 @@ PARTS = {
 RASTERIZED = ("blend", "blend backward")
 
 
+def is_written(name):
+    """False for one of MADE whose photographs nobody has drawn yet."""
+    return name not in MADE or os.path.exists(os.path.join(scenes.ROOT, benchmark_capture.folder_of(MADE_OF)))
+
+
 @dataclass(frozen=True)
 class Capture:
     name: str
@@ -65,10 +75,15 @@ class Capture:
     options: tuple
     scales: tuple
     after: int = 0  # iterations before those that are timed; 0: as many as for other captures
+    made: str = ""  # the scene that a state is made from, if it is not trained
 
     @classmethod
     def named(cls, name, folder):
-        """One of CAPTURES or MANY, or any folder; what has to be written for it goes into `folder`."""
+        """One of CAPTURES, MANY or MADE, or any folder; what has to be written for it goes into `folder`."""
+        if name in MADE:
+            photographs = benchmark_capture.captured(MADE_OF)
+            scene = scenes.written("outdoor", MADE[name], name).path
+            return cls(name, photographs, photographs, ("--max-gaussians", str(MADE[name])), (1,), MADE_AFTER, scene)
         if name in MANY:
             of, points, after = MANY[name]
             one = cls.named(of, folder)
@@ -164,6 +179,17 @@ class State:
 
 
 @dataclass(frozen=True)
+class Made(State):
+    """A checkpoint that is made from a scene."""
+
+    def words(self, kept, out):
+        return "splat-checkpoint", self.capture.made, str(self.iterations), kept + ".checkpoint", out + ".json"
+
+    def point(self):
+        return study.Point(self.name(), self.words("{kept}", "{out}"), {"scene": self.capture.made}, {}, (".checkpoint",), any_build=True)
+
+
+@dataclass(frozen=True)
 class Timed:
     """The iterations after a state, on a machine with its clock on: TIMED at the state's own size."""
     state: State
@@ -174,7 +200,7 @@ class Timed:
 
     def iterations(self):
         # Three reports of as many cores as LARGEST has are more than a file of JSON may be.
-        many = self.scale == self.state.capture.scales[0] and "--simt-sums" not in self.options and self.machine != LARGEST
+        many = not self.state.capture.made and self.scale == self.state.capture.scales[0] and "--simt-sums" not in self.options and self.machine != LARGEST
         return TIMED if many else 1
 
     def name(self):
@@ -353,7 +379,7 @@ def row_of(store, capture, scale, iterations):
     """All choices of the kernels are tried at the first scale on the first machine, and those that are fastest there on the
     other and at the other scales."""
     iterations = capture.after or iterations
-    state = State(capture, iterations, store.folder)
+    state = (Made if capture.made else State)(capture, iterations, store.folder)
     trained, = store.all([state])
     first, *others = machines.PROTOTYPES
     at_first, with_it = _on(store, state, capture.scales[0], first, () if capture.after else CHOICES)

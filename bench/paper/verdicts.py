@@ -1,11 +1,27 @@
-"""Verdicts: whether a figure of the paper holds here, computed by a stated rule."""
+"""Verdicts: whether a figure of the paper holds here, by the share of the trials in which it does."""
 
+import math
 import statistics
+from dataclasses import dataclass
 
-HOLDS, IF, NOT = "holds", "holds if", "does not hold"
-DEPENDS, NOT_COMPARABLE = "depends on the core", "not comparable"
+HOLDS, NOT, OPEN = "holds", "does not hold", "open"
+# The share of the trials from which on a claim holds, and up to which it does not.
+MOST, LEAST = 0.95, 0.05
+CONFIDENCE = 0.95  # of a share's interval
 # "About": within this factor.
 FACTOR = 2
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A figure of ours beside one of the paper's. kind: what of several was measured ("serial", a baseline); where: a view; gaussians:
+    of the frame or iteration, 0 if that does not matter."""
+    value: float
+    where: str
+    kind: str = ""
+    machine: str = ""
+    command: str = ""
+    gaussians: int = 0
 
 
 def at_least(number):
@@ -16,77 +32,65 @@ def about(number):
     return lambda value: number / FACTOR <= value <= number * FACTOR
 
 
+def below(number):
+    return lambda value: value < number
+
+
 def place(row):
     return f"{row['scene']} {row['view']}"
 
 
-def by_machine(rows):
-    """The rows of each machine, in the order in which the machines come."""
-    found = {}
-    for row in rows:
-        found.setdefault(row.get("machine", ""), []).append(row)
-    return found
+def wilson(held, count, confidence=CONFIDENCE):
+    """Wilson's interval of a share, `held` of `count` trials."""
+    z = statistics.NormalDist().inv_cdf((1 + confidence) / 2)
+    share, square = held / count, z * z / count
+    middle = (share + square / 2) / (1 + square)
+    half = z / (1 + square) * math.sqrt(share * (1 - share) / count + square / (4 * count))
+    return max(0.0, middle - half), min(1.0, middle + half)
 
 
-def _on_one(rows, value, good):
-    right = [good(value(row)) for row in rows]
-    return HOLDS if all(right) else IF if any(right) else NOT
+def verdict(held, count):
+    """By the share alone: its interval stands beside it."""
+    return HOLDS if held >= MOST * count else NOT if held <= LEAST * count else OPEN
 
 
-def verdict(rows, value, good, rate=False, condition="the view is"):
-    """The verdict on rows of one machine, or of several that have the two cores.
-
-    NOT if no view reaches the figure; DEPENDS if some view of one machine does and none of the other. Else NOT_COMPARABLE for
-    a rate: it is the workload's, and of the paper's nobody knows the size of the pictures and the number of Gaussians, so
-    that a smaller one than ours would have reached it, too. Of other figures HOLDS if every view reaches it, else IF with
-    the views that do."""
-    kinds = [_on_one(of, value, good) for of in by_machine(rows).values()]
-    if NOT in kinds:
-        return NOT if set(kinds) == {NOT} else DEPENDS
-    if rate:
-        return NOT_COMPARABLE
-    if set(kinds) == {HOLDS}:
-        return HOLDS
-    return f"{IF} {condition} " + "; ".join(_named(machine, of, value, good) for machine, of in by_machine(rows).items())
+def share_text(held, count, of):
+    low, high = wilson(held, count)
+    return f"{held} of {count} {of}, {100 * low:.0f}-{100 * high:.0f} %"
 
 
-def _named(machine, rows, value, good):
-    right = sorted((row for row in rows if good(value(row))), key=value, reverse=True)
-    if len(right) == len(rows):
-        shown = "any"
-    else:
-        shown = ", ".join(map(place, right[:3])) + (f" or {len(right) - 3} others" if len(right) > 3 else "")
-    return shown + (f" on `{machine}`" if machine else "") + f" ({len(right)} of {len(rows)})"
+def interval(values):
+    """5 %, median and 95 %; of fewer than three values the least and the largest."""
+    if len(values) < 3:
+        return min(values), statistics.median(values), max(values)
+    cuts = statistics.quantiles(values, n=20, method="inclusive")
+    return cuts[0], statistics.median(values), cuts[-1]
 
 
-def span(rows, value, unit=""):
+def interval_text(values, unit=""):
+    low, middle, high = interval(values)
+    return f"{shown(middle)}{unit} ({shown(low)} to {shown(high)})"
+
+
+def shown(value):
+    """Three digits, without an exponent."""
+    return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+
+
+def span(trials, unit=""):
     """The smallest, the median and the largest value of each machine, with their views."""
-    said = []
-    for machine, of in by_machine(rows).items():
-        low, high = min(of, key=value), max(of, key=value)
-        shown = f"{value(low):.3g}{unit} ({place(low)})"
+    said, by_machine = [], {}
+    for trial in trials:
+        by_machine.setdefault(trial.machine, []).append(trial)
+    for machine, of in by_machine.items():
+        low, high = (pick(of, key=lambda trial: trial.value) for pick in (min, max))
+        text = f"{shown(low.value)}{unit} ({low.where})"
         if len(of) > 1:
-            shown += f" to {value(high):.3g}{unit} ({place(high)}), median {statistics.median(map(value, of)):.3g}{unit}"
-        said.append((f"`{machine}` " if machine else "") + shown)
+            middle = statistics.median(trial.value for trial in of)
+            text += f" to {shown(high.value)}{unit} ({high.where}), median {shown(middle)}{unit}"
+        said.append((f"`{machine}` " if machine else "") + text)
     return "; ".join(said)
 
 
-def ratios(rows, value, paper):
-    return f"{min(map(value, rows)) / paper:.2f} to {max(map(value, rows)) / paper:.2f}"
-
-
-def claim(what, paper, rows, value, good, *, unit="", number=None, bound="", rate=False, condition="the view is", reads=None):
-    """A claim about a figure of each view, or None if no view was measured. number: the paper's, for the ratio. rate:
-    whether the figure is one that a workload has."""
-    if not rows:
-        return None
-    best = max(rows, key=value)
-    return {
-        "claim": what,
-        "paper": paper,
-        "verdict": verdict(rows, value, good, rate, condition),
-        "ours": span(rows, value, unit),
-        "ratio": ratios(rows, value, number) if number else "",
-        "bound": bound,
-        "command": (reads or best).get("command", ""),
-    }
+def ratios(trials, paper):
+    return f"{min(t.value for t in trials) / paper:.2f} to {max(t.value for t in trials) / paper:.2f}"

@@ -3,6 +3,7 @@
 import glob
 import json
 import os
+import re
 import subprocess
 import tempfile
 import textwrap
@@ -34,7 +35,7 @@ def wrapped(lines):
     for line in lines:
         code ^= line.startswith("```")
         begin = line[:len(line) - len(line.lstrip(" -"))]
-        if code or len(line) <= WIDEST or line.strip().startswith(("|", "#", "!", "`")):
+        if code or len(line) <= WIDEST or line.strip().startswith(("|", "#", "!")) or re.fullmatch(r"\s*`[^`]*`", line):
             out.append(line)
         else:
             out += textwrap.wrap(line[len(begin):], WIDEST, initial_indent=begin, subsequent_indent=" " * len(begin),

@@ -7,6 +7,7 @@ import sys
 
 ROOT = sys.argv[1]
 sys.path.insert(0, f"{ROOT}/bench")
+import priors  # noqa: E402
 import uncertainty  # noqa: E402
 
 
@@ -39,8 +40,8 @@ def main():
     near([*one, {**one[0], "of_the_frame": False}], {}, 2.75)
     near([{"of_the_frame": True, "launch_ms": 0, "copy_ms": 1}], {"memory": 200}, 1)
     near([stage([core], [], (0, 0))], {"stores on the link": 0, "rasterizer": 200}, 0.75 + 2 * 1.2)
-    for name, (low, high, _) in uncertainty.PARTS.items():
-        assert 0 < low <= 100 <= high, name
+    for factor in priors.in_group("part"):
+        assert 0 < factor.domain[0] <= 100 <= factor.domain[1], factor
 
     table = subprocess.run([sys.executable, f"{ROOT}/bench/uncertainty.py", "--parts"], check=True, capture_output=True, text=True)
     with open(f"{ROOT}/docs/tables/validation.md", encoding="utf-8") as f:
