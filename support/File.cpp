@@ -150,6 +150,20 @@ Expected<uint64_t> xxh3OfFile(const std::string &Path) {
   return Hash.value();
 }
 
+Expected<std::string> fnv1a64OfFile(const std::string &Path) {
+  uint64_t Hash = fnv1a({});
+  const auto All = readChunks(
+      Path, openFile(Path, /*OnlyRegular=*/true), UINT64_MAX,
+      [](std::size_t) {},
+      [&](std::span<const std::byte> Chunk) {
+        Hash = fnv1a(
+            {reinterpret_cast<const char *>(Chunk.data()), Chunk.size()}, Hash);
+      });
+  if (!All)
+    return All.error();
+  return hexOf(Hash);
+}
+
 Expected<std::vector<std::byte>> readStart(const std::string &Path,
                                            std::size_t Size) {
   const auto Opened = openFile(Path, /*OnlyRegular=*/true);

@@ -6,9 +6,9 @@
 
 namespace vorion {
 
-std::string fnv1a64(std::string_view Bytes) {
-  return fmt::format("{:016x}", fnv1a(Bytes));
-}
+std::string hexOf(uint64_t Hash) { return fmt::format("{:016x}", Hash); }
+
+std::string fnv1a64(std::string_view Bytes) { return hexOf(fnv1a(Bytes)); }
 
 struct Xxh3::State {
   XXH3_state_t All;

@@ -1,8 +1,8 @@
 #include "cameras/CameraFile.h"
 
 #include "cameras/CameraPath.h"
-#include "io/Hash.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Hash.h"
 #include "vorion/support/Json.h"
 
 #include <filesystem>
@@ -91,10 +91,10 @@ Expected<std::string> hashCameraFile(const std::string &Path) {
   if (!Read)
     return Read.error();
   if (Read->Files.size() == 1)
-    return hashFile(Read->Files.front());
+    return fnv1a64OfFile(Read->Files.front());
   std::string Hashes;
   for (const std::string &File : Read->Files) {
-    const auto Hash = hashFile(File);
+    const auto Hash = fnv1a64OfFile(File);
     if (!Hash)
       return Hash.error();
     Hashes += fmt::format("{} {}\n", *Hash, fs::path(File).filename().string());

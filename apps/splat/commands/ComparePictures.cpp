@@ -1,7 +1,6 @@
 #include "commands/Compare.h"
 #include "commands/OutputFile.h"
 
-#include "io/Hash.h"
 #include "io/Image.h"
 #include "io/Metrics.h"
 #include "io/Npz.h"
@@ -118,7 +117,7 @@ Expected<Success> require(const std::string &File, const char *What,
 Expected<nlohmann::ordered_json> comparedFile(const std::string &File) {
   if (File.empty())
     return nlohmann::ordered_json(nullptr);
-  auto Hash = hashFile(File);
+  auto Hash = fnv1a64OfFile(File);
   if (!Hash)
     return Hash.error();
   return nlohmann::ordered_json{{"file", File}, {"fnv1a64", *Hash}};

@@ -7,11 +7,11 @@
 #include "commands/Usage.h"
 #include "explore/Page.h"
 #include "explore/Trials.h"
-#include "io/Hash.h"
 #include "io/ReportHead.h"
 #include "study/Study.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
@@ -76,7 +76,7 @@ Expected<ExplorePlan> planOf(const ExploreArguments &A, Workload Does,
   if (const auto Known = requestedEnergy(A.Energy, std::nullopt); !Known)
     return Known.error();
   if (!A.Energy.Technology.empty()) {
-    auto Hash = hashFile(A.Energy.Technology);
+    auto Hash = fnv1a64OfFile(A.Energy.Technology);
     if (!Hash)
       return Hash.error();
     P.From["technology"] = std::move(*Hash);

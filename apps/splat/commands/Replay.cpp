@@ -72,7 +72,7 @@ void findChanged(const Json &J, std::vector<std::string> &Changed) {
         const auto Was = J["fnv1a64"].get<std::string>();
         // Of a scene that is a folder, or stands for one, or of one file.
         const auto Scene = hashScene(File);
-        const auto Alone = hashFile(File);
+        const auto Alone = fnv1a64OfFile(File);
         const auto Cameras = hashCameraFile(File);
         if (File.empty()) // made, not read
           continue;
@@ -231,7 +231,7 @@ Expected<Success> replay(const ReplayArguments &A,
           claimOutputs({{"--json", A.JsonFile}}, {{"the result", A.Result}});
       !Claimed)
     return Claimed;
-  const auto Hash = hashFile(A.Result);
+  const auto Hash = fnv1a64OfFile(A.Result);
   if (!Hash)
     return Hash.error();
   Json Report = reportHead("splat-replay");

@@ -1,9 +1,10 @@
 #include "commands/WorkloadState.h"
 
 #include "capture/Photo.h"
-#include "io/Hash.h"
 #include "train/run/Checkpoint.h"
 #include "train/settings/SettingsTable.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Hash.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ Expected<std::string> beginWithCheckpoint(GivenState &State) {
   }
   if (auto Checked = checkBeginning(R, *Begin); !Checked)
     return Checked.error();
-  return hashFile(R.From);
+  return fnv1a64OfFile(R.From);
 }
 
 } // namespace

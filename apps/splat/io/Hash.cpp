@@ -9,14 +9,6 @@
 
 namespace vorion::splat {
 
-Expected<std::string> hashFile(const std::string &File) {
-  const auto Bytes = readRegularFile(File);
-  if (!Bytes)
-    return Bytes.error();
-  return fnv1a64(
-      {reinterpret_cast<const char *>(Bytes->data()), Bytes->size()});
-}
-
 Expected<std::string> hashScene(const std::string &Path) {
   namespace fs = std::filesystem;
   fs::path Folder(Path);
@@ -24,7 +16,7 @@ Expected<std::string> hashScene(const std::string &Path) {
     Folder = Folder.has_parent_path() ? Folder.parent_path() : fs::path(".");
   std::error_code Failed;
   if (!fs::is_directory(Folder, Failed))
-    return hashFile(Path);
+    return fnv1a64OfFile(Path);
   std::set<std::string> Names;
   for (fs::recursive_directory_iterator It(Folder, Failed), End;
        !Failed && It != End; It.increment(Failed))
@@ -36,7 +28,7 @@ Expected<std::string> hashScene(const std::string &Path) {
                              Failed.message())};
   std::string Hashes;
   for (const std::string &Name : Names) {
-    const auto Hash = hashFile((Folder / Name).string());
+    const auto Hash = fnv1a64OfFile((Folder / Name).string());
     if (!Hash)
       return Hash.error();
     Hashes += fmt::format("{} {}\n", *Hash, Name);

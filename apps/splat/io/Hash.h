@@ -1,4 +1,4 @@
-/// Hashes of files and scenes.
+/// Hashes of scenes.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -8,11 +8,9 @@
 
 namespace vorion::splat {
 
-/// fnv1a64() of the contents of \p File; Error: it cannot be read.
-Expected<std::string> hashFile(const std::string &File);
-
-/// Hash of a scene: of the file, or of the names and contents of all files in a
-/// folder, in the order of their names; a .json file represents its folder.
+/// fnv1a64() of a scene: of the file, or of the names and contents of all files
+/// in a folder, in the order of their names; a .json file represents its
+/// folder.
 Expected<std::string> hashScene(const std::string &Path);
 
 } // namespace vorion::splat

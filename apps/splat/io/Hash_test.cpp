@@ -1,5 +1,6 @@
 #include "io/Hash.h"
 #include "io/TestFiles.h"
+#include "vorion/support/File.h"
 
 #include <gtest/gtest.h>
 
@@ -26,11 +27,9 @@ TEST(Hash, OfAFileIsThatOfItsBytes) {
   Xxh3 Hash;
   Hash.add(std::as_bytes(std::span(Bytes)));
   EXPECT_EQ(*xxh3OfFile(Folder.path("x")), Hash.value());
+  EXPECT_EQ(*fnv1a64OfFile(Folder.path("x")), fnv1a64(Bytes));
   EXPECT_FALSE(xxh3OfFile("/nonexistent-folder/x"));
-}
-
-TEST(Hash, OfAMissingFileIsAnError) {
-  EXPECT_FALSE(hashFile("/nonexistent-folder/x"));
+  EXPECT_FALSE(fnv1a64OfFile("/nonexistent-folder/x"));
 }
 
 } // namespace

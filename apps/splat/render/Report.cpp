@@ -209,7 +209,7 @@ Expected<Json> jsonReport(const RenderRecord &R) {
   if (const Mesh *M = R.Options.Surface.get())
     Report["mesh"]["file"] = M->file();
   if (R.Back) {
-    auto Hash = hashFile(R.Back->Upstream);
+    auto Hash = fnv1a64OfFile(R.Back->Upstream);
     if (!Hash)
       return Hash.error();
     Report["backward"] = {{"upstream", R.Back->Upstream}, {"fnv1a64", *Hash}};

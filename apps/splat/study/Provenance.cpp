@@ -2,9 +2,9 @@
 
 #include "device/Configuration.h"
 #include "device/Programs.h"
-#include "io/Hash.h"
 #include "study/PointStore.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Hash.h"
 #include "vorion/support/Json.h"
 
 #include <filesystem>
@@ -29,7 +29,7 @@ void append(std::string &To, const auto &Values) {
 Json hashesOf(const std::vector<std::string> &Files) {
   Json Hashes = Json::array();
   for (const std::string &File : Files) {
-    const auto Hash = hashFile(File);
+    const auto Hash = fnv1a64OfFile(File);
     if (!Hash)
       return {};
     Hashes.push_back(*Hash);
@@ -82,7 +82,7 @@ std::string hashView(const Camera &View) {
 Expected<std::string> hashCapture(const Capture &C) {
   std::string All = fmt::format("{};{};", name(C.Format), C.HeldOutBy);
   for (const CaptureView &V : C.Views) {
-    auto Picture = hashFile(V.Picture);
+    auto Picture = fnv1a64OfFile(V.Picture);
     if (!Picture)
       return Picture;
     Camera Taken = V.Pose;
@@ -91,7 +91,7 @@ Expected<std::string> hashCapture(const Capture &C) {
                        V.HeldOut);
     if (V.Mask.empty())
       continue;
-    auto Mask = hashFile(V.Mask);
+    auto Mask = fnv1a64OfFile(V.Mask);
     if (!Mask)
       return Mask;
     All += *Mask + ";";

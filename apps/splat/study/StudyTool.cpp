@@ -8,6 +8,7 @@
 #include "study/Process.h"
 #include "study/Study.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
 #include "vorion/support/Printable.h"
@@ -68,7 +69,8 @@ std::string programFile(const std::string &Name) {
 /// The hash of a file, or of all files of a folder.
 Expected<std::string> hashPath(const std::string &Path) {
   std::error_code Ignored;
-  return fs::is_directory(Path, Ignored) ? hashScene(Path) : hashFile(Path);
+  return fs::is_directory(Path, Ignored) ? hashScene(Path)
+                                         : fnv1a64OfFile(Path);
 }
 
 /// Computes the provenance of points. Each input file is hashed once.
@@ -191,7 +193,7 @@ Expected<Json> CommandRun::outcome() const {
   std::ranges::sort(Written);
   std::string All;
   for (const std::string &File : Written) {
-    const auto Hash = hashFile(Work + "/" + File);
+    const auto Hash = fnv1a64OfFile(Work + "/" + File);
     if (!Hash)
       return Hash.error();
     All += *Hash;

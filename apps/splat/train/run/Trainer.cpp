@@ -323,11 +323,16 @@ Photo Trainer::render(const Camera &C) {
   return P;
 }
 
-std::vector<double> Trainer::evaluate() {
+std::vector<double>
+Trainer::evaluate(const std::function<void(const TrainView &, Photo)> &Take) {
   std::vector<double> Db;
   Db.reserve(Pictures.HeldOut.size());
-  for (const TrainView &V : Pictures.HeldOut)
-    Db.push_back(psnrOfBytes(render(V.Pose).Rgb, V.Picture.Rgb, V.Counts));
+  for (const TrainView &V : Pictures.HeldOut) {
+    Photo P = render(V.Pose);
+    Db.push_back(psnrOfBytes(P.Rgb, V.Picture.Rgb, V.Counts));
+    if (Take)
+      Take(V, std::move(P));
+  }
   return Db;
 }
 

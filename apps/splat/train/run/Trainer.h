@@ -16,6 +16,7 @@
 #include "train/run/ViewBatch.h"
 #include "train/settings/Settings.h"
 
+#include <functional>
 #include <optional>
 
 namespace vorion::splat {
@@ -91,8 +92,10 @@ public:
 
   /// Renders the scene in the view \p C, rounded to 8 bits.
   Photo render(const Camera &C);
-  /// PSNR of the 8-bit values of each held-out view, dB.
-  std::vector<double> evaluate();
+  /// PSNR of the 8-bit values of each held-out view, dB. \p Take, if set, gets
+  /// each view and its picture.
+  std::vector<double>
+  evaluate(const std::function<void(const TrainView &, Photo)> &Take = nullptr);
 
 private:
   bool isChangeDue() const;

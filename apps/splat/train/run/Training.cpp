@@ -1,12 +1,13 @@
 #include "train/run/Training.h"
 
-#include "io/Hash.h"
 #include "io/Mean.h"
 #include "picture/Layout.h"
 #include "picture/SceneUnit.h"
 #include "picture/View.h"
 #include "train/data/Start.h"
 #include "train/run/RunRecord.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Hash.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Letters.h"
 
@@ -354,7 +355,7 @@ Expected<Success> complete(TrainRequest &R, const Capture &C) {
     R.Run.Points = hashPoints(C.Points);
     return Success{};
   }
-  auto Hash = hashFile(R.From);
+  auto Hash = fnv1a64OfFile(R.From);
   if (!Hash)
     return Hash.error();
   R.Run.From = *Hash;
@@ -366,7 +367,11 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
                          Trainer &T) {
   TrainOutcome &Out = W.Out;
   Out.Result = T.scene();
-  const std::vector<double> Db = T.evaluate();
+  const std::vector<double> Db =
+      T.evaluate([&](const TrainView &V, Photo Drawn) {
+        if (W.Request.KeepPictures)
+          Out.Shown.emplace_back(std::move(Drawn), V);
+      });
   if (Launch.failure())
     return *Launch.failure();
   for (std::size_t I = 0; I < Db.size(); ++I)
@@ -377,11 +382,6 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
     Out.Cameras.push_back(T.pose(I));
   if (arePosesOn(W.Request.Run.Settings))
     Out.Poses = T.poseChange();
-  if (W.Request.KeepPictures)
-    for (const TrainView &V : W.Pictures.HeldOut)
-      Out.Shown.emplace_back(T.render(V.Pose), V);
-  if (Launch.failure())
-    return *Launch.failure();
   Out.Record = W.Record;
   Out.Near = W.Request.Run.Near;
   Out.DeviceName = D.name();

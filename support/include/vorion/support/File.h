@@ -32,8 +32,11 @@ Expected<std::vector<std::byte>> readFile(const std::string &Path,
 Expected<std::vector<std::byte>> readRegularFile(const std::string &Path,
                                                  uint64_t Most = UINT64_MAX);
 
-/// XXH3, 64 bits, of a regular file, which need not fit into memory.
+/// XXH3, 64 bits, of a regular file, of which a part is in memory at a time.
 Expected<uint64_t> xxh3OfFile(const std::string &Path);
+
+/// The same with fnv1a64().
+Expected<std::string> fnv1a64OfFile(const std::string &Path);
 
 /// The first \p Size bytes of a regular file, or all if it is shorter.
 Expected<std::vector<std::byte>> readStart(const std::string &Path,
