@@ -2,7 +2,8 @@
 //
 // A region is written twice, for all lanes active and for some of them, with
 // the same guest registers in the same host registers, and once more for one
-// lane where a warp of one was found (OneLane.h). It is entered as the
+// lane where a warp of one was found or a loop may leave one of several
+// (OneLane.h). It is entered as the
 // interpreter's handlers are (core/State.h, Handler), and ends in a tail call
 // of one. What it does not do itself, or finds out of the ordinary, it leaves
 // to the interpreter's handler of that instruction before it has changed
@@ -132,7 +133,7 @@ void Emitter::holdAgain(const HeldVectors &Was) {
 
 Label &Emitter::toInterpreter() {
   if (!ToInterpreter)
-    ToInterpreter = &ToInterpreters.emplace_back();
+    ToInterpreter = &Lasting.emplace_back();
   return *ToInterpreter;
 }
 
@@ -408,6 +409,7 @@ void Emitter::writeMode(unsigned Mode) {
   Later.clear();
   Held.forget();
   writeAtomics();
+  writeAtLimit();
   writeExits();
 }
 

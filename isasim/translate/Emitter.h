@@ -36,7 +36,8 @@ struct Entry {
 /// The host's registers while a region runs:
 ///   rdi  the WarpState         r8   instructions retired
 ///   r9   r8 when lanes' instructions were counted last
-///   r10  WarpState::RetireLimit
+///   r10  WarpState::RetireLimit, or what is before it: when jumps look for the
+///        code for one lane
 ///   rbx, rbp  loads and stores
 ///   r12  where the words at the stack pointer lie, or 0 (Stack.cpp)
 ///   r13, r14, r15  the region Global of the memory view: where it begins, how
@@ -107,6 +108,8 @@ private:
   void writeJump(const GuestInsn &G);
   std::span<const GuestInsn> leafOf(const GuestInsn &Call) const;
   void stopIfEnough(const Insn *Next);
+  void limitStretch();
+  void writeAtLimit();
   void writeIndirect(const GuestInsn &G);
   void writeTables();
   void goTo(const Insn *To);
@@ -158,8 +161,8 @@ private:
                         bool IsStore, const Xbyak::Zmm &Bases,
                         const Xbyak::Zmm &Spread, Xbyak::Label &Apart,
                         Xbyak::Label &Wrong);
-  void locateEach(const Xbyak::Zmm &Addresses, int Bytes, bool IsStore,
-                  const Xbyak::Zmm &Offsets, Xbyak::Label &Wrong);
+  void locateEach(const Insn *I, const Xbyak::Zmm &Addresses, int Bytes,
+                  bool IsStore, const Xbyak::Zmm &Offsets, Xbyak::Label &Wrong);
   void writeFinders();
 
   // Stack.cpp.
@@ -216,10 +219,12 @@ private:
     std::function<void()> First;
   };
   std::optional<Rounded> Unchecked;
-  /// A label's copies are its own only once it has been used.
-  std::deque<Xbyak::Label> ToInterpreters;
+  /// A label's copies are its own only once it has been used. These stay where
+  /// they are.
+  std::deque<Xbyak::Label> Lasting;
   Xbyak::Label *ToInterpreter = nullptr; ///< of the present instruction
   std::optional<Xbyak::Label> Leave, Return, Prologue;
+  Xbyak::Label AtLimit[2];
   Xbyak::Label FindReadable, FindWritable, FindStackLine, FindOwnStack;
   /// Of places that lead, by WarpState::Full.
   std::map<const Insn *, Xbyak::Label> Labels[2];

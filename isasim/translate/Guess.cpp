@@ -1,7 +1,7 @@
-// Guesses which loads read one word for all lanes, as loads from tables do, and
-// which accesses are to the lanes' stacks. The code alone does not say where a
-// pointer comes from that a loop moves on. So a guess begins with the registers
-// and the stack of a warp that stands there.
+// Guesses which loads read one word for all lanes, as loads from tables do,
+// which accesses are to places far apart, and which to the lanes' stacks. The
+// code alone does not say where a pointer comes from that a loop moves on. So a
+// guess begins with the registers and the stack of a warp that stands there.
 
 #include "core/State.h"
 #include "translate/Region.h"
@@ -27,8 +27,9 @@ struct Values {
 };
 
 struct Known {
-  Values Uniform;  ///< one number in all active lanes
-  Values InStacks; ///< addresses of stacks
+  Values Uniform;   ///< one number in all active lanes
+  Values Scattered; ///< numbers that do not grow slowly with the lane
+  Values InStacks;  ///< addresses of stacks
 };
 
 /// The number in Values::Words that \p G loads or stores, if it does.
@@ -41,23 +42,42 @@ std::optional<size_t> stackWordOf(const GuestInsn &G) {
   return Word;
 }
 
-bool isSameNow(const WarpState &S, const LaneWords &Words) {
-  const uint32_t First = Words[std::countr_zero(S.Mask)];
+bool isSameNow(uint32_t Mask, const LaneWords &Words) {
+  const uint32_t First = Words[std::countr_zero(Mask)];
   bool Same = true;
   for (int L = 0; L != MaxLanes; ++L)
-    Same &= (S.Mask >> L & 1) == 0 || Words[L] == First;
+    Same &= (Mask >> L & 1) == 0 || Words[L] == First;
   return Same;
+}
+
+/// Whether active lanes' words do not grow by the same few bytes a lane, or
+/// elements, as addresses of neighbours do.
+bool isScatteredNow(uint32_t Mask, const LaneWords &Words) {
+  constexpr uint32_t Most = WordBytes;
+  const uint32_t First = std::countr_zero(Mask);
+  const uint32_t Others = Mask & (Mask - 1);
+  if (Others == 0)
+    return false;
+  const uint32_t Second = std::countr_zero(Others);
+  const uint32_t Step = (Words[Second] - Words[First]) / (Second - First);
+  bool Same = Step <= Most;
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    Same &=
+        (Mask >> L & 1) == 0 || Words[L] - Words[First] == (L - First) * Step;
+  return !Same;
 }
 
 Known knownNow(const WarpState &S) {
   Known K;
-  if (S.Mask == 0)
+  const uint32_t Mask = S.Mask;
+  if (Mask == 0)
     return K;
-  const auto IsInStacks = [&S](const LaneWords &Words) {
-    return S.Mem->Stack.holds(Words[std::countr_zero(S.Mask)], WordBytes);
+  const auto IsInStacks = [&S, Mask](const LaneWords &Words) {
+    return S.Mem->Stack.holds(Words[std::countr_zero(Mask)], WordBytes);
   };
   for (unsigned N = 0; N != NumRegisters; ++N) {
-    K.Uniform.Registers[N] = isSameNow(S, S.Registers[N]);
+    K.Uniform.Registers[N] = isSameNow(Mask, S.Registers[N]);
+    K.Scattered.Registers[N] = isScatteredNow(Mask, S.Registers[N]);
     K.InStacks.Registers[N] = IsInStacks(S.Registers[N]);
   }
   for (size_t N = 0; N != K.Uniform.Words.size(); ++N) {
@@ -66,7 +86,7 @@ Known knownNow(const WarpState &S) {
     for (int L = 0; L != MaxLanes; ++L) {
       const uint32_t Address =
           S.Registers[StackPointer][L] + static_cast<uint32_t>(N) * WordBytes;
-      if ((S.Mask >> L & 1) == 0)
+      if ((Mask >> L & 1) == 0)
         continue;
       IsThere &= S.Mem->Stack.holds(Address, WordBytes);
       if (!IsThere)
@@ -76,7 +96,8 @@ Known knownNow(const WarpState &S) {
                   sizeof(Word));
       Words[L] = Word;
     }
-    K.Uniform.Words[N] = IsThere && isSameNow(S, Words);
+    K.Uniform.Words[N] = IsThere && isSameNow(Mask, Words);
+    K.Scattered.Words[N] = IsThere && isScatteredNow(Mask, Words);
     K.InStacks.Words[N] = IsThere && IsInStacks(Words);
   }
   return K;
@@ -88,6 +109,7 @@ Known behindCall(Known K) {
   const auto Lose = [&K](unsigned First, unsigned Last) {
     for (unsigned N = First; N <= Last; ++N) {
       K.Uniform.Registers[N] = false;
+      K.Scattered.Registers[N] = false;
       K.InStacks.Registers[N] = false;
     }
   };
@@ -128,6 +150,26 @@ bool isUniform(const GuestInsn &G, const Values &U) {
   }
 }
 
+/// Whether the result of \p G is scattered if its operands are as \p K has it.
+bool isScattered(const GuestInsn &G, const Known &K) {
+  if (isUniform(G, K.Uniform))
+    return false;
+  const InsnInfo &Info = InsnTable[static_cast<unsigned>(G.Opcode)];
+  const auto Is = [&K](File F, uint16_t Register) {
+    return F == File::X && K.Scattered.Registers[numberOf(Register)];
+  };
+  switch (G.Is) {
+  case Kind::Integer:
+    return Is(Info.Rs1, G.I->Rs1) || Is(Info.Rs2, G.I->Rs2);
+  case Kind::Load: {
+    const auto Word = stackWordOf(G);
+    return !Word || K.Scattered.Words[*Word];
+  }
+  default:
+    return false;
+  }
+}
+
 /// Whether the result of \p G is an address of stacks if its operands are as
 /// \p V has it.
 bool isInStacks(const GuestInsn &G, const Values &V) {
@@ -147,8 +189,8 @@ bool isInStacks(const GuestInsn &G, const Values &V) {
 /// followed.
 class Flow {
 public:
-  explicit Flow(std::vector<GuestInsn> &RegionIn)
-      : Region(RegionIn), Before(Region.size()) {}
+  Flow(const WarpState &S, std::vector<GuestInsn> &RegionIn)
+      : Warp(S), Region(RegionIn), Before(Region.size()) {}
 
   /// \p K is in front of \p I on the shortest way, which comes first. Longer
   /// ones know less.
@@ -161,6 +203,12 @@ public:
       return;
     Before[N] = K;
     Ahead.push_back(N);
+  }
+
+  void reachAddress(uint32_t Address, const Known &K) {
+    const uint32_t Number = (Address - Warp.CodeLo) / WordBytes;
+    if (Number < Warp.CodeCount)
+      reach(Warp.Code + Number, K);
   }
 
   void follow() {
@@ -179,33 +227,45 @@ public:
       const unsigned Base = numberOf(G.I->Rs1);
       G.HasOneAddress =
           G.Is == Kind::Load && Before[N]->Uniform.Registers[Base];
+      G.IsScattered = Before[N]->Scattered.Registers[Base];
       G.IsInStacks = Before[N]->InStacks.Registers[Base];
     }
   }
 
 private:
   void pass(const GuestInsn &G, Known K) {
+    if (G.Opcode == Op::VX_TMC && G.I->Rs1 == XBase)
+      return; // the warp's end
     const InsnInfo &Info = InsnTable[static_cast<unsigned>(G.Opcode)];
     if (const auto Word = stackWordOf(G); Word && G.Is == Kind::Store)
-      for (Values *V : {&K.Uniform, &K.InStacks})
+      for (Values *V : {&K.Uniform, &K.Scattered, &K.InStacks})
         V->Words[*Word] = V->Registers[numberOf(G.I->Rs2)];
     if (Info.Rd != File::None && !isSink(G.I->Rd)) {
       const unsigned Rd = numberOf(G.I->Rd);
       const bool IsUniform = isUniform(G, K.Uniform);
+      const bool IsFar = isScattered(G, K);
       K.Uniform.Registers[Rd] = IsUniform;
+      K.Scattered.Registers[Rd] = IsFar;
       K.InStacks.Registers[Rd] = isInStacks(G, K.InStacks);
       if (Rd == StackPointer)
-        for (Values *V : {&K.Uniform, &K.InStacks})
+        for (Values *V : {&K.Uniform, &K.Scattered, &K.InStacks})
           V->Words.reset();
     }
     if (G.Is == Kind::Branch || G.Is == Kind::Jump)
       reach(G.I + (G.I->Imm >> 2), K);
     if (G.Is != Kind::Jump && G.Is != Kind::Indirect)
-      reach(G.I + 1, K);
-    else if (!isSink(G.I->Rd))
-      reach(G.I + 1, behindCall(K));
+      return reach(G.I + 1, K);
+    if (isSink(G.I->Rd))
+      return;
+    // Loops over work-items keep their kernel's address in a register.
+    if (G.Is == Kind::Indirect)
+      reachAddress(Warp.Registers[numberOf(G.I->Rs1)][Warp.LastLane] +
+                       static_cast<uint32_t>(G.I->Imm),
+                   K);
+    reach(G.I + 1, behindCall(K));
   }
 
+  const WarpState &Warp;
   std::vector<GuestInsn> &Region;
   std::vector<std::optional<Known>> Before;
   std::deque<size_t> Ahead;
@@ -214,13 +274,11 @@ private:
 } // namespace
 
 void guessAddresses(std::vector<GuestInsn> &Region, const WarpState &S) {
-  Flow F(Region);
+  Flow F(S, Region);
   const Known Now = knownNow(S);
   F.reach(S.Next, Now);
   // In a short function nothing else says what its caller has.
-  const uint32_t Back = (S.Registers[ReturnAddress][S.LastLane] - S.CodeLo) / 4;
-  if (Back < S.CodeCount)
-    F.reach(S.Code + Back, Now);
+  F.reachAddress(S.Registers[ReturnAddress][S.LastLane], Now);
   F.follow();
   F.mark();
 }

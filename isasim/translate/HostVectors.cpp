@@ -275,6 +275,18 @@ void HostVectors::scatter(const Zmm &Offsets, const Zmm &Values,
                  [this](const RegExp &At) { mov(dword[At], edx); });
 }
 
+/// For forActiveLanes().
+std::function<void(const RegExp &)> HostVectors::narrowStore(int Bytes) {
+  return [this, Bytes](const RegExp &At) {
+    Bytes == 2 ? mov(word[At], dx) : mov(byte[At], dl);
+  };
+}
+
+void HostVectors::scatterNarrow(int Bytes, const Zmm &Offsets,
+                                const Zmm &Values, bool AreAllActive) {
+  forActiveLanes(Values, &Offsets, Bytes, AreAllActive, narrowStore(Bytes));
+}
+
 void HostVectors::storeNarrow(int Bytes, const Zmm &Values, bool AreAllActive) {
   if (isWide()) {
     const Address To = AreAllActive ? ptr[rcx] : ptr[rcx] | k1;
@@ -295,10 +307,7 @@ void HostVectors::storeNarrow(int Bytes, const Zmm &Values, bool AreAllActive) {
                              Xmm(Second.getIdx()));
     return CodeGenerator::vmovdqu(ptr[rcx], Xmm(First.getIdx()));
   }
-  forActiveLanes(Values, nullptr, Bytes, AreAllActive,
-                 [this, Bytes](const RegExp &At) {
-                   Bytes == 2 ? mov(word[At], dx) : mov(byte[At], dl);
-                 });
+  forActiveLanes(Values, nullptr, Bytes, AreAllActive, narrowStore(Bytes));
 }
 
 } // namespace vorion::isasim::translate

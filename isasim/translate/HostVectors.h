@@ -92,6 +92,9 @@ public:
   /// Active lanes' \p Values to rcx + \p Offsets, in the order of the lanes.
   /// k2 has the active lanes, and is lost. May overwrite rax, rdx and r11.
   void scatter(const Zmm &Offsets, const Zmm &Values, bool AreAllActive);
+  /// The same for their lowest \p Bytes bytes (1 or 2).
+  void scatterNarrow(int Bytes, const Zmm &Offsets, const Zmm &Values,
+                     bool AreAllActive);
   /// The lowest \p Bytes bytes (1 or 2) of active lanes' \p Values side by side
   /// to rcx. May overwrite rax, rdx and r11.
   void storeNarrow(int Bytes, const Zmm &Values, bool AreAllActive);
@@ -199,6 +202,7 @@ private:
   void forActiveLanes(const Zmm &Values, const Zmm *Offsets, int Bytes,
                       bool AreAllActive,
                       const std::function<void(const Xbyak::RegExp &)> &Store);
+  std::function<void(const Xbyak::RegExp &)> narrowStore(int Bytes);
   void compareHalf(const Ymm &D, int Half, const Zmm &A, const Operand &B,
                    Relation Of, bool AreSigned);
   void compare(const Opmask &To, const Zmm &A, const Operand &B, Relation Of,

@@ -2,6 +2,7 @@
 // of the warp's turn, as the interpreter does.
 
 #include "translate/Emitter.h"
+#include "translate/Places.h"
 
 #include <algorithm>
 
@@ -17,18 +18,65 @@ namespace {
 /// machine are meant.
 constexpr size_t LongestLeaf = 8;
 
+/// Instructions that one lane has executed alone before it is worth the way to
+/// its own code and back, which is some hundred cycles.
+constexpr int WorthOneLane = 64;
+
 } // namespace
 
 /// Behind a jump to \p Next that has been counted.
 void Emitter::stopIfEnough(const Insn *Next) {
-  Label Enough;
+  Label Enough, Back;
   cmp(r8, r10);
   jae(Enough);
-  outOfLine([this, Enough, Next]() mutable {
+  L(Back);
+  outOfLine([this, Enough, Back, Next]() mutable {
     L(Enough);
     mov(rsi, reinterpret_cast<uint64_t>(Next));
-    jmp(*Return);
+    if (OneLane.Entries.empty())
+      return jmp(*Return);
+    lea(rcx, ptr[rip + Back]);
+    if (const auto At = OneLane.Entries.find(Next);
+        !Full && At != OneLane.Entries.end())
+      lea(rax, ptr[rip + At->second]);
+    else
+      xor_(eax, eax);
+    jmp(AtLimit[Full]);
   });
+}
+
+/// Where r8 has reached r10 in front of rsi: on at rcx unless the turn has
+/// ended, or at rax, the code for one lane, if there is that and one lane alone
+/// is active.
+void Emitter::writeAtLimit() {
+  if (OneLane.Entries.empty())
+    return;
+  Label Stays;
+  L(AtLimit[Full]);
+  cmp(r8, ptr[rdi + VORION_PLACE(RetireLimit)]);
+  jae(*Return);
+  if (!Full) {
+    mov(edx, dword[rdi + VORION_PLACE(Mask)]);
+    blsr(edx, edx);
+    jnz(Stays);
+    test(rax, rax);
+    jnz(*Leave);
+    jmp(rcx);
+    L(Stays);
+  }
+  mov(r10, ptr[rdi + VORION_PLACE(RetireLimit)]);
+  jmp(rcx);
+}
+
+/// Lets jumps look for the code for one lane after some instructions from here
+/// on, where the lanes have changed. Overwrites rcx.
+void Emitter::limitStretch() {
+  if (OneLane.Entries.empty())
+    return;
+  mov(r10, ptr[rdi + VORION_PLACE(RetireLimit)]);
+  lea(rcx, ptr[r8 + WorthOneLane]);
+  cmp(r10, rcx);
+  cmova(r10, rcx);
 }
 
 /// A jump that has been counted goes to \p To, unless the warp has executed
@@ -117,10 +165,13 @@ void Emitter::writeIndirect(const GuestInsn &G) {
   shl(rcx, 5);
   mov(rsi, reinterpret_cast<uint64_t>(Code.begin()));
   add(rsi, rcx);
+  Label Goes, Outside;
   cmp(r8, r10);
+  jb(Goes);
+  cmp(r8, ptr[rdi + VORION_PLACE(RetireLimit)]);
   jae(*Return);
+  L(Goes);
   // In the region, if the table says so.
-  Label Outside;
   const auto First = static_cast<uint32_t>(Region.front().I - Code.begin());
   const auto Last = static_cast<uint32_t>(Region.back().I - Code.begin());
   sub(eax, First);

@@ -62,6 +62,7 @@ void Emitter::changeLanes() {
   countLanes();
   mov(r9, r8);
   mov(dword[rdi + MaskPlace], eax);
+  limitStretch();
   keepLanes();
 }
 
@@ -182,26 +183,38 @@ void Emitter::join(const GuestInsn &G) {
 void Emitter::predicate(const GuestInsn &G, bool IsNegated) {
   const Insn *I = G.I;
   Label &Wrong = toInterpreter();
-  Label Some, Same, Others;
+  Label None, Fewer;
   predicateOf(I->Rs1, IsNegated);
   test(eax, eax);
-  jnz(Some);
-  lastLane(I->Rs2);
-  and_(eax, dword[rdi + VORION_PLACE(AllLanes)]);
-  jz(Wrong);
-  L(Some);
+  jz(None);
+  isFull() ? cmp(eax, AllBits) : cmp(eax, dword[rdi + MaskPlace]);
+  jne(Fewer);
   inc(qword[rdi + VORION_PLACE(Count.Splits)]);
-  mov(ecx, dword[rdi + MaskPlace]);
-  cmp(eax, ecx);
-  je(Same);
-  not_(ecx);
-  test(eax, ecx);
-  jnz(Others);
-  inc(qword[rdi + VORION_PLACE(Count.DivergentSplits)]);
-  L(Others);
-  changeLanes();
-  resumeAtEither(I + 1);
-  L(Same);
+  outOfLine([=, this, &Wrong, Before = Pending]() mutable {
+    Label Others;
+    Pending = Before;
+    // Some lanes stay.
+    L(Fewer);
+    inc(qword[rdi + VORION_PLACE(Count.Splits)]);
+    inc(qword[rdi + VORION_PLACE(Count.DivergentSplits)]);
+    changeLanes();
+    resumeAt(I + 1, 0);
+    L(None);
+    lastLane(I->Rs2);
+    and_(eax, dword[rdi + VORION_PLACE(AllLanes)]);
+    jz(Wrong);
+    inc(qword[rdi + VORION_PLACE(Count.Splits)]);
+    mov(ecx, dword[rdi + MaskPlace]);
+    cmp(eax, ecx);
+    je(Others);
+    not_(ecx);
+    test(eax, ecx);
+    jnz(Others);
+    inc(qword[rdi + VORION_PLACE(Count.DivergentSplits)]);
+    L(Others);
+    changeLanes();
+    resumeAtEither(I + 1);
+  });
 }
 
 void Emitter::vote(const GuestInsn &G) {

@@ -1,7 +1,7 @@
 // Loads and stores. Neighbouring lanes at neighbouring places, all lanes at one
-// place (first for loads where Guess.cpp says so), lanes anywhere in one
-// region, and the lanes' own stacks (first where Guess.cpp says so), in this
-// order; Stack.cpp has those of stacks. The rest, and all that is wrong, is the
+// place (loads alone), lanes anywhere in one region, and the lanes' own stacks,
+// in this order, unless Guess.cpp says which is likely; Stack.cpp has those of
+// stacks. The rest, and all that is wrong, is the
 // interpreter's.
 
 #include "translate/Places.h"
@@ -133,13 +133,13 @@ void Emitter::writeFinders() {
   }
 }
 
-/// For active lanes at aligned \p Addresses in one region: \p Offsets from rcx.
-/// eax has the first one's address.
-void Emitter::locateEach(const Zmm &Addresses, int Bytes, bool IsStore,
-                         const Zmm &Offsets, Label &Wrong) {
-  Label Found;
+/// For active lanes at aligned \p Addresses of \p I in one region: \p Offsets
+/// from rcx. \p Wrong is one of Lasting.
+void Emitter::locateEach(const Insn *I, const Zmm &Addresses, int Bytes,
+                         bool IsStore, const Zmm &Offsets, Label &Wrong) {
+  Label Found, NotGlobal;
   // Of aligned places in a region of whole words. k2 has those elsewhere.
-  const auto Try = [&](const RegExp &In) {
+  const auto Try = [=, this](const RegExp &In) {
     vpsubd(Offsets, Addresses, ptr_b[In + RegionLo]);
     vpcmpud(active(k2), Offsets, ptr_b[In + RegionBytes], Relation::NotLess);
     if (Bytes > 1)
@@ -150,23 +150,29 @@ void Emitter::locateEach(const Zmm &Addresses, int Bytes, bool IsStore,
   if (Bytes > 1)
     vptestmd(active(k3), Addresses, constant(static_cast<uint32_t>(Bytes - 1)));
   mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
-  for (const int In : {InGlobal, InLocal}) {
-    Label Elsewhere;
-    Try(rsi + In);
-    jnz(Elsewhere);
-    mov(rcx, ptr[rsi + In + RegionHost]);
-    jmp(Found);
-    L(Elsewhere);
-  }
-  mov(edx, Bytes);
-  call(IsStore ? FindWritable : FindReadable);
-  test(rcx, rcx);
-  jz(Wrong);
-  Try(rcx);
-  jnz(Wrong);
-  mov(rcx, ptr[rcx + RegionHost]);
+  Try(rsi + InGlobal);
+  jnz(NotGlobal);
+  mov(rcx, r15);
   L(Found);
   isFull() ? setAll(k2) : copy(k2, k1);
+  outOfLine([=, this, &Wrong]() mutable {
+    Label NotLocal;
+    L(NotGlobal);
+    Try(rsi + InLocal);
+    jnz(NotLocal);
+    mov(rcx, ptr[rsi + InLocal + RegionHost]);
+    jmp(Found);
+    L(NotLocal);
+    spreadFirstAddress(I, 0, Offsets, Addresses);
+    mov(edx, Bytes);
+    call(IsStore ? FindWritable : FindReadable);
+    test(rcx, rcx);
+    jz(Wrong);
+    Try(rcx);
+    jnz(Wrong);
+    mov(rcx, ptr[rcx + RegionHost]);
+    jmp(Found);
+  });
 }
 
 Zmm Emitter::addressesOf(const Insn *I) {
@@ -222,8 +228,7 @@ void Emitter::load(const GuestInsn &G) {
   };
   const auto FromEach = [=, this](Label &Elsewhere) {
     Scratches = Taken;
-    spreadFirstAddress(I, 0, Spread, Addresses);
-    locateEach(Addresses, Bytes, false, Bases, Elsewhere);
+    locateEach(I, Addresses, Bytes, false, Bases, Elsewhere);
     if (Bytes == 4)
       return result(I->Rd,
                     [&](const Zmm &To) { gather(Zmm(To.getIdx()), Bases); });
@@ -235,13 +240,26 @@ void Emitter::load(const GuestInsn &G) {
   };
   Label Other, Done;
   const bool StacksFirst = G.IsInStacks && KeepsStackLine;
+  if (G.IsScattered && !StacksFirst) {
+    Label &Elsewhere = Lasting.emplace_back();
+    FromEach(Elsewhere);
+    L(Done);
+    return outOfLine([=, this, &G, &Wrong, &Elsewhere]() mutable {
+      L(Elsewhere);
+      if (!KeepsStackLine)
+        return jmp(Wrong);
+      Scratches = Taken;
+      loadFromOwnStacks(G, Addresses, Bytes, IsSigned, Bases, Spread, Wrong);
+      jmp(Done);
+    });
+  }
   if (StacksFirst)
     loadFromOwnStacks(G, Addresses, Bytes, IsSigned, Bases, Spread, Other);
   else
     G.HasOneAddress ? FromOne(Other) : FromNeighbours(Other);
   L(Done);
   outOfLine([=, this, &G, &Wrong]() mutable {
-    Label Apart, Scattered, Elsewhere;
+    Label Apart, Scattered, &Elsewhere = Lasting.emplace_back();
     L(Other);
     if (StacksFirst) {
       G.HasOneAddress ? FromOne(Apart) : FromNeighbours(Apart);
@@ -283,30 +301,44 @@ void Emitter::store(const GuestInsn &G) {
     else
       storeNarrow(Bytes, Values, isFull());
   };
+  const auto ToEach = [=, this](Label &Elsewhere) {
+    locateEach(I, Addresses, Bytes, true, Bases, Elsewhere);
+    // In the order of the lanes, as the guest's.
+    if (Bytes == 4)
+      scatter(Bases, Values, isFull());
+    else
+      scatterNarrow(Bytes, Bases, Values, isFull());
+  };
   Label Other, Done;
   const bool StacksFirst = G.IsInStacks && KeepsStackLine;
+  if (G.IsScattered && !StacksFirst) {
+    Label &Elsewhere = Lasting.emplace_back();
+    ToEach(Elsewhere);
+    L(Done);
+    return outOfLine([=, this, &Wrong, &Elsewhere]() mutable {
+      L(Elsewhere);
+      if (!KeepsStackLine)
+        return jmp(Wrong);
+      storeToOwnStacks(Addresses, Bytes, Values, Bases, Spread, Wrong);
+      jmp(Done);
+    });
+  }
   if (StacksFirst)
     storeToOwnStacks(Addresses, Bytes, Values, Bases, Spread, Other);
   else
     ToNeighbours(Other);
   L(Done);
   outOfLine([=, this, &Wrong]() mutable {
-    Label Apart, Elsewhere;
+    Label Apart, &Elsewhere = Lasting.emplace_back();
     L(Other);
     if (StacksFirst) {
       ToNeighbours(Apart);
       jmp(Done);
       L(Apart);
     }
-    // The host has no such stores of less than words.
-    if (Bytes == 4) {
-      spreadFirstAddress(I, 0, Spread, Addresses);
-      locateEach(Addresses, Bytes, true, Bases, Elsewhere);
-      // In the order of the lanes, as the guest's.
-      scatter(Bases, Values, isFull());
-      jmp(Done);
-      L(Elsewhere);
-    }
+    ToEach(Elsewhere);
+    jmp(Done);
+    L(Elsewhere);
     if (StacksFirst || !KeepsStackLine)
       return jmp(Wrong);
     storeToOwnStacks(Addresses, Bytes, Values, Bases, Spread, Wrong);

@@ -48,6 +48,8 @@ struct GuestInsn {
   unsigned Loops = 0; ///< how many it lies in
   /// Of a load: all active lanes probably name one address.
   bool HasOneAddress = false;
+  /// Of a load or store: they probably name neither one nor neighbours.
+  bool IsScattered = false;
   /// Of a load or store: it probably accesses the lanes' own stacks.
   bool IsInStacks = false;
 };
@@ -72,10 +74,10 @@ struct RegisterUses {
 };
 RegisterUses usesOf(const std::vector<GuestInsn> &Region);
 
-/// Sets GuestInsn::HasOneAddress and IsInStacks of a region's loads and stores
-/// by what \p S has in its registers, if it stands in the region, and what
-/// becomes of that on every way from there. What is wrong costs time alone: a
-/// translation looks at each address.
+/// Sets GuestInsn::HasOneAddress, IsScattered and IsInStacks of a region's
+/// loads and stores by what \p S has in its registers, if it stands in the
+/// region, and what becomes of that on every way from there. What is wrong
+/// costs time alone: a translation looks at each address.
 void guessAddresses(std::vector<GuestInsn> &Region, const WarpState &S);
 
 } // namespace vorion::isasim::translate

@@ -51,6 +51,15 @@ Translator::Translator(CodeTable &Code, const ExecTable &Exec,
     : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn), Unit(Unit),
       Host(std::make_unique<translate::HostCode>(HostCodeBytes)) {}
 
+/// Whether one lane of several may be alone in a loop of \p Region.
+static bool mayLeaveOneLane(const std::vector<translate::GuestInsn> &Region) {
+  using translate::GuestInsn, translate::Kind;
+  return std::ranges::any_of(
+             Region, [](const GuestInsn &G) { return G.Is == Kind::Lanes; }) &&
+         std::ranges::any_of(Region,
+                             [](const GuestInsn &G) { return G.Loops != 0; });
+}
+
 void Translator::seen(const Insn *At, uint64_t Instructions,
                       const WarpState *Warp) {
   if (Done.contains(At))
@@ -69,6 +78,11 @@ void Translator::seen(const Insn *At, uint64_t Instructions,
   Cost = CostOfInsn * Region.size();
   if (Credit < Cost)
     return;
+  // What one lane has says nothing of others that come back behind.
+  if (Warp && Warp->LaneCount == 1 && Warp->WholeMask != Warp->Mask &&
+      Alone++ != MostAlone)
+    return;
+  Alone = 0;
   Credit = Cost = 0;
   Done.insert(At);
   if (Warp)
@@ -78,7 +92,7 @@ void Translator::seen(const Insn *At, uint64_t Instructions,
   const std::span<uint8_t> Bytes(Buffer[0].Bytes, RegionBytes);
   try {
     translate::OneLaneCode OneLane;
-    if (Warp && Warp->LaneCount == 1)
+    if ((Warp && Warp->LaneCount == 1) || mayLeaveOneLane(Region))
       OneLane = translate::writeForOneLane(Exec, Code, Region, Bytes);
     const size_t Front =
         (OneLane.Bytes + sizeof(Line) - 1) / sizeof(Line) * sizeof(Line);

@@ -66,6 +66,10 @@ private:
   /// Instructions that have been executed around other places since the last
   /// translation, and how many the next one costs as far as it is known.
   [[maybe_unused]] uint64_t Credit = 0, Cost = 0;
+  /// How often a translation has been put off because one lane of several was
+  /// active, and the most.
+  [[maybe_unused]] unsigned Alone = 0;
+  static constexpr unsigned MostAlone = 4;
 };
 
 } // namespace vorion::isasim

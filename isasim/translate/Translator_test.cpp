@@ -208,6 +208,48 @@ public:
       Words.push_back(encode(Op::VX_JOIN, {.Rs1 = Token}));
   }
 
+  /// A loop that lanes leave one after the other, one of them mostly long after
+  /// the others.
+  void addDivergentLoop(std::vector<uint32_t> &Words,
+                        uint32_t PercentAccesses) {
+    constexpr unsigned Active = FirstToken + 2, Spare = FirstToken + 1,
+                       Left = 31;
+    constexpr unsigned ThreadId = CSR_THREAD_ID, Mask = CSR_ACTIVE_THREADS;
+    Words.push_back(encode(Op::RV_CSRRS, {.Rd = Active, .Csr = Mask}));
+    Words.push_back(
+        encode(Op::RV_ANDI, {.Rd = Left, .Rs1 = 3 + below(11), .Imm = 7}));
+    if (below(4)) {
+      Words.push_back(encode(Op::RV_CSRRS, {.Rd = Spare, .Csr = ThreadId}));
+      Words.push_back(
+          encode(Op::RV_ADDI, {.Rd = Spare,
+                               .Rs1 = Spare,
+                               .Imm = -static_cast<int32_t>(below(MaxLanes))}));
+      Words.push_back(
+          encode(Op::RV_SLTIU, {.Rd = Spare, .Rs1 = Spare, .Imm = 1}));
+      Words.push_back(
+          encode(Op::RV_SLLI, {.Rd = Spare, .Rs1 = Spare, .Imm = 5}));
+      Words.push_back(
+          encode(Op::RV_OR, {.Rd = Left, .Rs1 = Left, .Rs2 = Spare}));
+    }
+    const size_t Begin = Words.size();
+    for (uint32_t N = 1 + below(4); N != 0; --N) {
+      if (below(100) >= PercentAccesses)
+        Words.push_back(computation());
+      else if (below(2))
+        Words.push_back(access());
+      else
+        addIndexed(Words);
+    }
+    Words.push_back(
+        encode(Op::RV_SLTU, {.Rd = Predicate, .Rs1 = 0, .Rs2 = Left}));
+    Words.push_back(encode(Op::RV_ADDI, {.Rd = Left, .Rs1 = Left, .Imm = -1}));
+    Words.push_back(encode(Op::VX_PRED, {.Rs1 = Predicate, .Rs2 = Active}));
+    Words.push_back(
+        encode(Op::RV_BNE, {.Rs1 = Predicate,
+                            .Imm = 4 * (static_cast<int32_t>(Begin) -
+                                        static_cast<int32_t>(Words.size()))}));
+  }
+
   /// A short function, its call, and the way around it. Seldom it overwrites
   /// the place to return to.
   void addCall(std::vector<uint32_t> &Words, uint32_t PercentAccesses) {
@@ -241,6 +283,8 @@ public:
         addSplit(Words, 0);
       else if (below(20) == 0)
         addCall(Words, PercentAccesses);
+      else if (below(15) == 0)
+        addDivergentLoop(Words, PercentAccesses);
       else if (below(10) == 0)
         addRounded(Words);
       else if (below(30) == 0)
@@ -422,7 +466,10 @@ TEST_P(TranslatedPrograms, DoesWhatTheInterpreterDoes) {
       Some = 1U << P.below(Shape.LanesPerWarp);
       Fast.setActive(Some);
     }
-    // Registers of 0 make it guess that addresses are the same in all lanes.
+    // Registers of 0 make it guess that addresses are the same in all lanes,
+    // others that some are scattered.
+    if (Seed % 4 == 3)
+      P.fill(Interpreted, Fast);
     T.seen(Fast.Code.begin(), UINT64_MAX, Seed % 2 ? &Fast.warp() : nullptr);
     Translated += T.regions();
     for (const uint32_t Active : {AllLanes, Some ? Some : 1}) {
