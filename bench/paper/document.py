@@ -181,34 +181,48 @@ def write(file, sections):
     rows = {**before["rows"], **{key: row for key, row in rows_of(measured).items() if row["section"] == "draws" or
                                  before["rows"].get(key, {}).get("section") != "draws" or "draws" in measured}}
     facts = {**before["facts"], **lines.facts(measured)}
+    facts["pages"] = {**facts.get("pages", {}), **_pages({name: data for name, (_, data) in sections.items() if data})}
     _write(os.path.join(pages, KEPT), json.dumps({"rows": rows, "facts": facts}, indent=1, ensure_ascii=False) + "\n")
     in_order = ordered(rows)
-    versions = sorted({v for data in measured.values() for v in data.get("clocks", ())})
     out = [HEAD, "", *lines.ten(in_order, facts), "",
            "`scripts/paper.sh` makes this page (resumable); do not edit it. The page behind each claim has tables, views and commands; one says"
-           " [what would make claims hold](paper/changes.md).",
-           *([f"Measured with version {', '.join(map(str, versions))} of the clock ([model.md](model.md#versions-of-the-clock)), in {_hours(measured)}"
-              " of wall time, each run counted in full."] if versions else []), "",
+           " [what would make claims hold](paper/changes.md).", *_measured_with(facts["pages"]), "",
            *_groups(in_order), *lines.short_of_size(facts), *_changed(in_order), METHOD, ""]
     if "joint" in measured:
         out += [f"## {joint.TITLE}", "", *joint.text(measured["rates"], measured["speedup"])]
-    out += ["## Pages", "", *(f"- {_anchored(name, module.TITLE)}" for name, (module, _) in sections.items()
-                              if os.path.exists(os.path.join(pages, name + ".md"))), ""]
-    left = [f"- {module.TITLE}: {_not_measured(name, rows)}. `scripts/paper.sh --sections {name}`." for name, (module, data) in sections.items() if not data]
-    left += [f"- {module.TITLE}: {len(data['left_out'])} points, which [its page](paper/{name}.md) names."
-             for name, (module, data) in sections.items() if data and data.get("left_out")]
+    out += ["## Pages", "", "`scripts/paper.sh --sections` and the word in code measures a page again.", "",
+            *writing.table(("page", "section", "clock version", "hours", "points that are missing"), [_made(name, module, facts["pages"]) for name, (module, _) in sections.items()
+                                                                                  if os.path.exists(os.path.join(pages, name + ".md"))])]
+    left = [f"- {module.TITLE}: {claims.OPEN[name]}. `scripts/paper.sh --sections {name}`." for name, (module, _) in sections.items()
+            if name in claims.OPEN and not os.path.exists(os.path.join(pages, name + ".md"))]
     if left:
         out += ["## Not measured", "", *left]
     _write(file, _lines(out))
 
 
-def _not_measured(name, rows):
-    if any(row["section"] == name for row in rows.values()):
-        return "not in the last run. Its claims are those of an earlier build, which its page names"
-    return claims.OPEN.get(name, "not in the last run")
+def _pages(measured):
+    """What each section's page is of, for runs that measure only other sections. A run that several sections share is counted in the first."""
+    found, counted = {}, set()
+    for name, data in measured.items():
+        seconds = data.get("seconds", {})
+        hours = sum(time for run, time in seconds.items() if run not in counted) / 3600
+        counted |= set(seconds)
+        found[name] = {"clocks": data.get("clocks", []), "hours": hours, "left_out": len(data.get("left_out", ()))}
+    return found
 
 
-def _hours(measured):
-    """The sum over all runs, which sections share."""
-    seconds = {run: time for data in measured.values() for run, time in data.get("seconds", {}).items()}
-    return f"{sum(seconds.values()) / 3600:.1f} hours"
+def _measured_with(pages):
+    """By version of the clock, latest first, which pages are of it, and how long they took."""
+    versions = sorted({v for page in pages.values() for v in page["clocks"]}, reverse=True)
+    if not versions:
+        return []
+    of = {v: [page for page in pages.values() if v in page["clocks"]] for v in versions}
+    said = [f"version {v} of the clock in {sum(page['hours'] or 0 for page in of[v]):.1f} hours" for v in versions[:1]]
+    said += [f"{len(of[v])} of the {len(pages)} pages with version {v}" for v in versions[1:]]
+    return [f"Measured with {', '.join(said)} ([model.md](model.md#versions-of-the-clock)); hours are of wall time, each run counted in full."]
+
+
+def _made(name, module, pages):
+    page = pages.get(name, {"clocks": [], "hours": None, "left_out": 0})
+    hours = "" if page["hours"] is None else f"{page['hours']:.1f}"
+    return _anchored(name, module.TITLE), f"`{name}`", " ".join(map(str, page["clocks"])), hours, page["left_out"] or ""

@@ -1,7 +1,9 @@
 """The ten lines of the page, and where it falls short of the paper's size: sentences from figures."""
 
 import collections
+import json
 
+import benchmark_set
 import changes
 import claims
 import hypercube
@@ -44,6 +46,13 @@ def followed(data, key):
     return sorted((f for f in found if hypercube.is_beyond_chance(f[0], len(rows))), key=lambda f: -abs(f[0]))
 
 
+def _bytes(names):
+    """Hashes of scenes of the benchmark set as they are now."""
+    with open(benchmark_set.FILE, encoding="utf-8") as file:
+        known = json.load(file)
+    return {name: known[name]["scene_fnv1a64"] for name in names if name in known}
+
+
 def facts(measured):
     """What the lines say beside the claims, of each section that was measured."""
     found = {}
@@ -52,6 +61,7 @@ def facts(measured):
                           "follows": {key: followed(data, key)[:3] for key in ("fps", "times", "gain")},
                           "not_blending": interval_text([row["figures"]["not_blending"] for row in data["rows"]], " %") if data["rows"] else "",
                           "gaussians": sorted({row["gaussians"] for row in data["rows"]}), "scenes": sorted({row["scene"] for row in data["rows"]})}
+        found["draws"]["bytes"] = _bytes((*found["draws"]["scenes"], *data["targets"]))
     if rows := [row for row in measured.get("rates", {}).get("rows", ()) if row["machine"] == machines.PROTOTYPES[0]]:
         row = min(rows, key=lambda row: row["serial"]["fps"])
         found["largest"] = {"place": place(row), "ratio": row["serial"]["fps"] / joint.FPS, "scaled": row["serial"]["scaled_fps"] / 152,
@@ -118,6 +128,9 @@ def short_of_size(facts_of):
         if draws["targets"]:
             out += [f"- Their rates are scaled, stage by stage, to {', '.join(draws['targets'])} by counts; corrected by whole frames of that size this is within a factor "
                     f"of {draws['off']:.2f}, which is drawn, too ([check](paper/draws.md#how-far-a-sample-is-off))."]
+        drawn = draws.get("bytes", {})
+        if other := [name for name, now in _bytes(drawn).items() if now != drawn[name]]:
+            out += [f"- Since the draws {', '.join(other)} {'was' if len(other) == 1 else 'were'} fitted again ([the match](tables/benchmark-set.md#the-match)): the next draws are of other bytes."]
     out += ["- Kernels alone are measured on crops, and their blending is scaled by blends.",
             "- Training was measured on the captures that [its page](paper/training.md) names, and is not drawn."]
     return [*out, ""]
