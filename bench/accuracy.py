@@ -206,7 +206,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mode", choices=("pictures", "fixtures", "gradients"))
     parser.add_argument("--data", default=os.path.join(root, "..", "shared", "data"))
-    parser.add_argument("-o", default=os.path.join(root, "build", "accuracy"))
+    parser.add_argument("--out", default=os.path.join(root, "build", "accuracy"))
     parser.add_argument("--scenes", default=",".join(SCENES))
     parser.add_argument("--views", default=",".join(VIEWS))
     parser.add_argument("--hard", action="store_true", help="fixtures, gradients: the hard ones too")
