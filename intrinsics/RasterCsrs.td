@@ -60,7 +60,7 @@ def VR_BACKWARD : BankCsr<"vr_backward", 0x7EB, "Options of the backward mode.">
 // What one kind of primitive needs (docs/primitives.md): by number and value.
 def VR_INDEX : Csr<"vr_index", 0x7EC, Agent, Scalar, 1, "Number of the word that vr_word or vr_item accesses.">;
 def VR_WORD : Csr<"vr_word", 0x7ED, Agent, Scalar, 1, "Word vr_index, VR_WORD_*, of the bank. One that does not exist reads as 0, and a write of it does nothing.">;
-def VR_ITEM : Csr<"vr_item", 0x7EE, Lane, ReadOnly, 0, "Word vr_index of what the lane has of the batch that vr_grad_next selected: of a fragment VR_ITEM_*, of gradients as vr_grad_tag to vr_grad_syy. 0 in lanes without one.">;
+def VR_ITEM : Csr<"vr_item", 0x7EE, Lane, ReadOnly, 0, "Word vr_index of what the lane has of the batch that vr_grad_next selected: of a fragment VR_ITEM_*, of gradients as vr_grad_tag to vr_grad_syy, and three more of rays. 0 in lanes without one.">;
 
 // A pushed descriptor: the lane writes its fields, then vr_push.
 def VR_G_MEAN_X : Csr<"vr_g_mean_x", 0x7D0, Lane, PerLane, 0, "Float: mean, column.">;

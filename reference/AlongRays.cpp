@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <unordered_map>
 
 namespace vorion::reference {
 namespace {
@@ -130,6 +132,10 @@ public:
     return Lists;
   }
 
+  const Body &body(int32_t Index) const {
+    return Bodies[static_cast<std::size_t>(Index)];
+  }
+
   glm::dvec3 color(int32_t Index, const PixelRay &R) const {
     const auto I = static_cast<std::size_t>(Index);
     if (!G.Colors.empty())
@@ -155,16 +161,17 @@ private:
     const double Across = glm::dot(From, From) - Along * Along;
     if (!(Across <= B.Deviation * (B.Widest + Blur * Far * Far)))
       return;
-    if (const double Alpha = alpha(B, G.Opacities[I], R, From, Far);
-        Alpha >= leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand))
+    if (const double Wanted = wanted(B, G.Opacities[I], R, From, Far);
+        Wanted >= leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand))
       List.push_back({By == RayDepths::Own    ? Depth
                       : C.Optics.byDistance() ? glm::length(B.Mean)
                                               : B.Mean.z,
-                      static_cast<int32_t>(I), Alpha});
+                      static_cast<int32_t>(I), Wanted});
   }
 
-  double alpha(const Body &B, double Opacity, const PixelRay &R,
-               const glm::dvec3 &From, double Far) const {
+  /// Before the clamp.
+  double wanted(const Body &B, double Opacity, const PixelRay &R,
+                const glm::dvec3 &From, double Far) const {
     if (!C.Optics.Model->IsParallel && !isAhead(B, R, From))
       return 0;
     // The rows take away what is along the ray. What they leave of the mean and
@@ -183,8 +190,7 @@ private:
       return 0;
     if (O.Antialiased)
       Opacity *= std::sqrt(std::max(LeastDeterminantRatio, Det0 / Det));
-    return std::min(mostAlpha<double>(),
-                    Opacity * std::exp(-0.5 * throughInverse(S, Det, Off)));
+    return Opacity * std::exp(-0.5 * throughInverse(S, Det, Off));
   }
 
   const Gaussians<double> &G;
@@ -192,6 +198,52 @@ private:
   const Options &O;
   const RayDepths By;
   std::vector<Body> Bodies;
+};
+
+/// What a pixel blends, front to back; the alphas are those before the clamp.
+struct Blended {
+  int32_t Index;
+  double Alpha, Wanted, T;
+};
+
+/// Of the ray's nearest point to the mean by the covariance: what is left of it
+/// from the mean, over the covariance, by the Gaussian's axes. The vector is
+/// (d x (m x d)) with m and d in standard deviations, of which no component is
+/// divided by a scale.
+glm::dvec3 nearestOverCovariance(const Body &B, const glm::dvec3 &Scales,
+                                 const PixelRay &R) {
+  const glm::dvec3 Beside = glm::cross(B.Mean - R.Origin, R.Direction);
+  glm::dvec3 M, D, Y;
+  double Square = 0;
+  for (int K = 0; K < 3; ++K) {
+    M[K] = Scales[K] * Scales[K] * glm::dot(B.Turn[K], Beside);
+    D[K] = glm::dot(B.Turn[K], R.Direction);
+    const double Others = Scales[(K + 1) % 3] * Scales[(K + 2) % 3];
+    Square += Others * Others * D[K] * D[K];
+  }
+  for (int K = 0; K < 3; ++K) {
+    const int I = (K + 1) % 3, J = (K + 2) % 3;
+    Y[K] = (M[I] * D[J] - M[J] * D[I]) / Square;
+  }
+  return Y;
+}
+
+/// What one Gaussian gets of the pixels of a tile.
+struct RaySums {
+  glm::dvec3 Color{0}, Mean{0}, Scales{0}, Turn{0}; ///< Turn: by its own axes
+  double S = 0;
+
+  void add(const glm::dvec3 &Scale, const Body &B, const glm::dvec3 &Y,
+           double Weight) {
+    S += Weight;
+    Mean += Weight * (B.Turn * Y);
+    Scales += Weight * Scale * Y * Y;
+    for (int K = 0; K < 3; ++K) {
+      const int I = (K + 1) % 3, J = (K + 2) % 3;
+      Turn[K] +=
+          Weight * (Scale[I] * Scale[I] - Scale[J] * Scale[J]) * Y[I] * Y[J];
+    }
+  }
 };
 
 } // namespace
@@ -232,11 +284,12 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
         double Depth = 0; // of the Gaussian in front
         for (const Seen &S : Lists[Ray]) {
           ++Walked;
-          if (near(S.Alpha, LeastAlpha))
+          const double Alpha = std::min(mostAlpha<double>(), S.Alpha);
+          if (near(Alpha, LeastAlpha))
             P.Doubts[At] |= DoubtThreshold;
-          if (S.Alpha < LeastAlpha)
+          if (Alpha < LeastAlpha)
             continue;
-          const double Next = T * (1 - S.Alpha);
+          const double Next = T * (1 - Alpha);
           if (near(Next, O.Cutoff))
             P.Doubts[At] |= DoubtThreshold;
           if (S.Depth - Depth <= DepthRounding * S.Depth)
@@ -247,7 +300,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
             ++Saturated;
             break;
           }
-          P.Render[At] += S.Alpha * T * All.color(S.Index, *Rays.Rays[Ray]);
+          P.Render[At] += Alpha * T * All.color(S.Index, *Rays.Rays[Ray]);
           T = Next;
           P.Last[At] = S.Index;
           ++Blends;
@@ -259,6 +312,109 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
   P.Walked = Walked;
   P.Saturated = Saturated;
   return P;
+}
+
+Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
+                            const Upstream &U, const Options &O) {
+  assert(O.Dilation == 0 && !O.Antialiased);
+  const std::size_t N = G.size();
+  const TileGrid Grid(8, C.Width, C.Height);
+  const glm::dvec3 Background(O.Background[0], O.Background[1],
+                              O.Background[2]);
+  const SeenScene All(G, C, O, RayDepths::Own);
+  // Of tiles, so that the order of additions is always the same.
+  std::vector<std::unordered_map<int32_t, RaySums>> Tiles(Grid.count());
+  forEachTile(Grid.count(), O.Threads, [&](std::size_t Tile) {
+    const int X0 = static_cast<int>(Tile) % Grid.Columns * Grid.Size;
+    const int Y0 = static_cast<int>(Tile) / Grid.Columns * Grid.Size;
+    const Rect Area{X0, Y0, std::min(X0 + Grid.Size, C.Width),
+                    std::min(Y0 + Grid.Size, C.Height)};
+    const Bundle Rays(C, O.Dilation, Area);
+    const auto Lists = All.see(Rays);
+    std::size_t Ray = 0;
+    std::vector<Blended> Pixel;
+    for (int Y = Area.Y0; Y < Area.Y1; ++Y)
+      for (int X = Area.X0; X < Area.X1; ++X, ++Ray) {
+        const auto At =
+            static_cast<std::size_t>(Y) * static_cast<std::size_t>(C.Width) +
+            static_cast<std::size_t>(X);
+        double T = 1;
+        Pixel.clear();
+        for (const Seen &S : Lists[Ray]) {
+          const double Alpha = std::min(mostAlpha<double>(), S.Alpha);
+          if (Alpha < leastAlpha<double>(O.AlphaCutoff))
+            continue;
+          if (isFull(T * (1 - Alpha), O))
+            break;
+          Pixel.push_back({S.Index, Alpha, S.Alpha, T});
+          T *= 1 - Alpha;
+        }
+        const double ByLast = glm::dot(Background, U.Render[At]) - U.Alpha[At];
+        glm::dvec3 Behind(0);
+        for (std::size_t I = Pixel.size(); I-- > 0;) {
+          const Blended &B = Pixel[I];
+          const glm::dvec3 Color = All.color(B.Index, *Rays.Rays[Ray]);
+          const double ByAlpha = B.T * glm::dot(Color - Behind, U.Render[At]) -
+                                 T / (1 - B.Alpha) * ByLast;
+          Behind = B.Alpha * Color + (1 - B.Alpha) * Behind;
+          RaySums &Sums = Tiles[Tile][B.Index];
+          Sums.Color += B.Alpha * B.T * U.Render[At];
+          if (O.Rule == Rules::Gsplat && B.Wanted > mostAlpha<double>())
+            continue;
+          const glm::dvec3 &Scales =
+              G.Scales[static_cast<std::size_t>(B.Index)];
+          const Body &Shape = All.body(B.Index);
+          Sums.add(Scales, Shape,
+                   nearestOverCovariance(Shape, Scales, *Rays.Rays[Ray]),
+                   B.Wanted * ByAlpha);
+        }
+      }
+  });
+
+  std::vector<RaySums> Sums(N);
+  for (const auto &Tile : Tiles)
+    for (const auto &[Index, Own] : Tile) {
+      RaySums &To = Sums[static_cast<std::size_t>(Index)];
+      To.Color += Own.Color;
+      To.Mean += Own.Mean;
+      To.Scales += Own.Scales;
+      To.Turn += Own.Turn;
+      To.S += Own.S;
+    }
+  Gradients Out;
+  Out.Sums.resize(N);
+  Out.Means2d.resize(N, glm::dvec2(0));
+  for (auto *V : {&Out.Means, &Out.Scales, &Out.Colors})
+    V->resize(N, glm::dvec3(0));
+  Out.Quats.resize(N, glm::dvec4(0));
+  Out.Opacities.resize(N, 0);
+  Out.Sh.resize(G.Sh.size(), glm::dvec3(0));
+  const auto Coefficients =
+      static_cast<std::size_t>((G.ShDegree + 1) * (G.ShDegree + 1));
+  for (std::size_t I = 0; I < N; ++I) {
+    const RaySums &From = Sums[I];
+    const double Far = C.Optics.Model->IsParallel
+                           ? 1
+                           : All.body(static_cast<int32_t>(I)).Mean.z;
+    Out.Sums[I].Color = Out.Colors[I] = From.Color;
+    Out.Sums[I].S = From.S;
+    Out.Opacities[I] = From.S == 0 ? 0 : From.S / G.Opacities[I];
+    Out.Scales[I] = From.Scales;
+    Out.Means2d[I] = {From.Mean.x * Far / C.Focal.x,
+                      From.Mean.y * Far / C.Focal.y};
+    // A rotation about its own axes by t is a step of q (0, t) / 2.
+    const glm::dvec4 &Q = G.Quats[I];
+    const glm::dvec3 Axis(Q[1], Q[2], Q[3]);
+    Out.Quats[I] =
+        2. * glm::dvec4(-glm::dot(Axis, From.Turn),
+                        Q[0] * From.Turn + glm::cross(Axis, From.Turn));
+    Out.Means[I] = glm::transpose(C.Rotation) * From.Mean;
+    if (G.Colors.empty())
+      Out.Means[I] += shBackward(
+          &G.Sh[I * Coefficients], std::min(G.ShDegree, O.ShLimit),
+          G.Means[I] - C.Centre, From.Color, &Out.Sh[I * Coefficients]);
+  }
+  return Out;
 }
 
 } // namespace vorion::reference

@@ -1,7 +1,8 @@
-/// Pictures by evaluation along rays, a reference for projected footprints.
+/// Pictures by evaluation along rays, a reference for projected footprints, and
+/// their gradients.
 #pragma once
 
-#include "Render.h"
+#include "Backward.h"
 
 namespace vorion::reference {
 
@@ -26,5 +27,12 @@ enum class RayDepths {
 Picture<double> renderAlongRays(const Gaussians<double> &G,
                                 const Camera<double> &C, const Options &O,
                                 RayDepths By = RayDepths::Own);
+
+/// Gradients of a loss through such a picture, without dilation. \c Means2d is
+/// dL/d(mean) for a step across the picture, in pixels, at the mean's depth; of
+/// \c Sums there are Color and S only, and no \c Conics. A Gaussian may have
+/// scales of 0.
+Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
+                            const Upstream &U, const Options &O);
 
 } // namespace vorion::reference

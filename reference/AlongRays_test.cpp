@@ -132,4 +132,115 @@ TEST(AlongRays, SmallFootprintsAreTheSame) {
   }
 }
 
+double lossOf(const Gaussians<double> &G, const Camera<double> &C,
+              const Upstream &U, const Options &O) {
+  Gaussians<double> Unit = G;
+  for (auto &Q : Unit.Quats)
+    Q /= glm::length(Q);
+  const auto P = renderAlongRays(Unit, C, O);
+  double Sum = 0;
+  for (std::size_t I = 0; I < P.Render.size(); ++I)
+    Sum += glm::dot(P.Render[I], U.Render[I]) +
+           (1 - P.Transmittance[I]) * U.Alpha[I];
+  return Sum;
+}
+
+/// Large Gaussians in front of the camera, one around it, and one opaque;
+/// colours of degree 1.
+Gaussians<double> nearScene() {
+  Gaussians<double> G;
+  G.ShDegree = 1;
+  for (int I = 0; I < 6; ++I) {
+    G.Means.emplace_back(0.4 * std::sin(1.7 * I), 0.3 * std::cos(2.3 * I),
+                         I == 0 ? 0.3 : 1 + 0.3 * I);
+    G.Scales.emplace_back(0.3 + 0.1 * std::sin(I), 0.2 + 0.05 * I,
+                          0.25 + 0.1 * std::cos(3 * I));
+    const glm::dvec4 Q(1, 0.3 * I, 0.5 - 0.2 * I, 0.1 + 0.1 * I);
+    G.Quats.push_back(Q / glm::length(Q));
+    G.Opacities.push_back(I == 1 ? 1 : 0.3 + 0.1 * I);
+    for (int K = 0; K < 4; ++K)
+      G.Sh.emplace_back(0.2 * std::sin(I + K), 0.1 * std::cos(2 * I + K), 0.1);
+  }
+  return G;
+}
+
+TEST(AlongRays, GradientsAreTheDerivative) {
+  for (const LensModel *M : {&lenses::Pinhole, &lenses::Orthographic})
+    for (const Rules Rule : {Rules::Inria, Rules::Gsplat}) {
+      auto C = frontCamera(20, 16, 14);
+      setLens(C, *M, {});
+      C.Rotation = glm::dmat3(0.8, 0.36, -0.48, 0, 0.8, 0.6, 0.6, -0.48, 0.64);
+      C.Translation = {0.1, -0.05, 0.1};
+      C.Centre = -(glm::transpose(C.Rotation) * C.Translation);
+      Options O;
+      O.Dilation = 0;
+      O.Rule = Rule;
+      O.Near = 0.05;
+      O.Background[1] = 0.4F;
+      Upstream U;
+      for (int I = 0; I < C.Width * C.Height; ++I) {
+        U.Render.emplace_back(std::sin(1.3 * I), std::cos(0.7 * I),
+                              std::sin(0.37 * I + 1));
+        U.Alpha.push_back(std::cos(0.9 * I + 2));
+      }
+      Gaussians<double> G = nearScene();
+      for (auto &Mean : G.Means)
+        Mean = glm::transpose(C.Rotation) * (Mean - C.Translation);
+      // No alpha is near 0.99, below which INRIA's rules go on as if it were
+      // not clamped.
+      if (Rule == Rules::Inria)
+        G.Opacities[1] = 0.9;
+      const Gradients D = alongRaysBackward(G, C, U, O);
+      double Largest = 0;
+      const auto Expect = [&](const char *What, double &Value, double Is) {
+        constexpr double Step = 1e-6;
+        const double Before = Value;
+        Value = Before + Step;
+        const double High = lossOf(G, C, U, O);
+        Value = Before - Step;
+        const double Right = (High - lossOf(G, C, U, O)) / (2 * Step);
+        Value = Before;
+        Largest = std::max(Largest, std::abs(Right));
+        EXPECT_NEAR(Is, Right, 2e-6 * std::max(1., std::abs(Right)))
+            << What << ' ' << M->Name;
+      };
+      for (std::size_t I = 0; I < G.size(); ++I) {
+        for (int K = 0; K < 3; ++K) {
+          Expect("mean", G.Means[I][K], D.Means[I][K]);
+          Expect("scale", G.Scales[I][K], D.Scales[I][K]);
+        }
+        for (int K = 0; K < 4; ++K)
+          Expect("quaternion", G.Quats[I][K], D.Quats[I][K]);
+        Expect("opacity", G.Opacities[I], D.Opacities[I]);
+        for (std::size_t K = 0; K < 4; ++K)
+          Expect("harmonic", G.Sh[4 * I + K].y, D.Sh[4 * I + K].y);
+      }
+      EXPECT_GT(Largest, 1);
+    }
+}
+
+TEST(AlongRays, GradientsOfADiscAreThoseOfAThinOne) {
+  const auto C = camera(&lenses::Pinhole);
+  Options O;
+  O.Dilation = 0;
+  Upstream U;
+  for (int I = 0; I < C.Width * C.Height; ++I) {
+    U.Render.emplace_back(std::sin(1.3 * I));
+    U.Alpha.push_back(0);
+  }
+  const auto Of = [&](double Thin) {
+    Gaussians<double> G;
+    addRound(G, {0.2, -0.1, 2}, 0.3, 0.8, glm::dvec3(1));
+    G.Scales[0].z = Thin;
+    const glm::dvec4 Q(1, 0.2, -0.3, 0.1);
+    G.Quats[0] = Q / glm::length(Q);
+    return alongRaysBackward(G, C, U, O);
+  };
+  const Gradients Disc = Of(0), Thin = Of(1e-7);
+  EXPECT_EQ(Disc.Scales[0].z, 0);
+  EXPECT_GT(glm::length(Disc.Means[0]), 1e-3);
+  EXPECT_NEAR(glm::distance(Disc.Means[0], Thin.Means[0]), 0, 1e-9);
+  EXPECT_NEAR(glm::distance(Disc.Quats[0], Thin.Quats[0]), 0, 1e-9);
+}
+
 } // namespace

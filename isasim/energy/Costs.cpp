@@ -94,6 +94,12 @@ constexpr EventCost Others[] = {
     {"rasterizer gradients", "pixels", RasterLanes, "fp32 multiplication", 16},
     {"rasterizer gradients", "pixels", RasterLanes, "fp32 addition", 4 + 9},
     {"rasterizer gradients", "pixels", RasterBuffers, "pixel of the buffer", 2},
+    {"rasterizer gradients", "pixels of rays", RasterLanes,
+     "fp32 multiplication", 23},
+    {"rasterizer gradients", "pixels of rays", RasterLanes, "fp32 addition",
+     4 + 12},
+    {"rasterizer gradients", "pixels of rays", RasterBuffers,
+     "pixel of the buffer", 2},
     {"pixel unit", "visits", PixelUnit, "fp32 multiplication", 7 + 1 + 5},
     {"pixel unit", "visits", PixelUnit, "fp32 addition", 4 + 2 + 5},
     {"pixel unit", "tails", PixelUnit, "tile command", 1},
@@ -173,6 +179,14 @@ std::span<const EventCost> eventCosts() {
       add(Made, "rasterizer blend", U.Name, U);
     }
     add(Made, "rasterizer gradients", "pixels", backwardUnits(0)[0]);
+    // T / (1 - alpha), and l / D in the other lane's divider.
+    DatapathUnit Divisions = backwardUnits(0)[0];
+    Divisions.Multipliers *= 2;
+    Divisions.ProductBits *= 2;
+    for (unsigned *Bits :
+         {&Divisions.AdderBits, &Divisions.ChoiceBits, &Divisions.RegisterBits})
+      *Bits *= 2;
+    add(Made, "rasterizer gradients", "pixels of rays", Divisions);
     for (uint8_t N = 1; N != std::size(raster::FrontEnds); ++N) {
       const std::string_view Name = raster::FrontEnds[N].Name;
       add(Made, "rasterizer front end", Name,
@@ -311,12 +325,19 @@ std::span<const AreaCost> areaCosts() {
     // Rays have the multipliers and adders of the power, by a choice of two
     // operands for each, and more.
     const DatapathUnit &Conic = datapathUnits(paperLane())[Power];
-    DatapathUnit Rays = datapathUnits(
-        {.FrontEnd = raster::frontEndRowOf(raster::VR_PRIMITIVE_RAY)})[Power];
+    const raster::LaneUnits OfRays{
+        .FrontEnd = raster::frontEndRowOf(raster::VR_PRIMITIVE_RAY)};
+    DatapathUnit Rays = datapathUnits(OfRays)[Power];
     Rays.Multipliers -= Conic.Multipliers;
     Rays.Adders -= Conic.Adders;
     Rays.ChoiceBits += (Conic.Multipliers + Conic.Adders) * 2 * 32;
     Add("ray units", Rays, 1, "lanes that meet rays");
+    for (std::size_t N = 1; N != backwardUnits(0).size(); ++N) {
+      DatapathUnit More = backwardUnits(0, OfRays)[N];
+      More.Multipliers -= backwardUnits(0)[N].Multipliers;
+      More.Adders -= backwardUnits(0)[N].Adders;
+      Add("ray units", More, 0.5, "lanes that meet rays");
+    }
     // What a pair of lanes has for gradients, with an exact divider.
     for (const DatapathUnit &U : backwardUnits(0))
       Add("backward mode", U, 0.5, RasterLane);

@@ -234,8 +234,9 @@ TEST(Energy, KnowsAllEventsOfAMachineThatHasEverything) {
   // And no cost is of an event that no report has. Other kinds of primitives,
   // and ranges, are in reports of runs that have some.
   for (const EventCost &C : eventCosts()) {
-    bool Known =
-        C.Unit == "rasterizer front end" || C.Event == "words of ranges loaded";
+    bool Known = C.Unit == "rasterizer front end" ||
+                 C.Event == "words of ranges loaded" ||
+                 C.Event == "pixels of rays";
     for (const Activity &A : Report.Activities)
       Known |= A.Unit == C.Unit && A.Event == C.Event;
     EXPECT_TRUE(Known) << C.Unit << ": " << C.Event;

@@ -46,18 +46,26 @@ struct BackwardOptions {
   bool ClampStops = false;
   bool InRows = false;
   bool SkipSaturated = false;
+  /// Whether rays take the falloff of degree 4.
+  bool IsDegree4 = false;
   float MinAlpha = 1.0F / 255.0F; ///< the smallest that is blended
   uint32_t Entry = 0;
 };
+
+/// Takes one primitive (no NaN) through a tile and writes its sums.
+template <typename Record>
+using BackFunction = BoxWork (*)(const Record &, const BackwardOptions &,
+                                 BackwardBuffer &, GradientSums &);
 
 /// One compilation of the datapath.
 struct BackwardDatapath {
   const char *Name;
   bool (*HostSupports)();
-  /// By expRow(): takes one Gaussian (no NaN) through a tile and writes
-  /// its sums.
-  BoxWork (*Back[ExpRowCount])(const Gaussian &, const BackwardOptions &,
-                               BackwardBuffer &, GradientSums &);
+  /// \name By expRow()
+  /// @{
+  BackFunction<Gaussian> Conics[ExpRowCount];
+  BackFunction<RayGaussian> Rays[ExpRowCount];
+  /// @}
   /// The reciprocal unit alone, in place, \p Count a multiple of 16.
   void (*Reciprocals)(Reciprocal Unit, float *Values, std::size_t Count);
 };

@@ -6,34 +6,34 @@
 namespace vorion::raster {
 namespace {
 
-using Conic = BlendedBody<VR_PRIMITIVE_CONIC>;
-
-constexpr unsigned SumCount = 9;
-
-/// Of each sum, one part for every column modulo 16.
-struct Columns16 {
-  Float16 Sum[SumCount];
+/// Of each of \p Count sums, one part for every column modulo 16.
+template <unsigned Count> struct Columns16 {
+  Float16 Sum[Count];
 };
 
-VORION_INLINE Columns16 zeroColumns() {
-  Columns16 C;
+/// Three of the colour, s, and the front end's moments.
+template <typename Body> using SumsOf = Columns16<4 + Body::MomentCount>;
+
+template <unsigned Count> VORION_INLINE Columns16<Count> zeroColumns() {
+  Columns16<Count> C;
   for (Float16 &S : C.Sum)
     S = 0.0F;
   return C;
 }
 
-VORION_INLINE void add(Columns16 &To, const Columns16 &From) {
-  for (unsigned K = 0; K != SumCount; ++K)
+template <unsigned Count>
+VORION_INLINE void add(Columns16<Count> &To, const Columns16<Count> &From) {
+  for (unsigned K = 0; K != Count; ++K)
     To.Sum[K] += From.Sum[K];
 }
 
 /// Adds rows up as a binary tree over the tile's rows: node n of a level is the
 /// sum of nodes 2 n and 2 n + 1 of the one below, rows outside the box being 0.
-class RowTree {
+template <unsigned Count> class RowTree {
 public:
   /// Takes the rows of a box, none left out, from the first to the last.
-  VORION_INLINE void add(unsigned Row, const Columns16 &Part) {
-    Columns16 Node = Part;
+  VORION_INLINE void add(unsigned Row, const Columns16<Count> &Part) {
+    Columns16<Count> Node = Part;
     unsigned L = 0;
     for (; Row >> L & 1; ++L)
       if (Full >> L & 1) {
@@ -45,11 +45,11 @@ public:
     Full |= 1U << L;
   }
 
-  VORION_INLINE Columns16 sum() const {
-    Columns16 Node = zeroColumns();
+  VORION_INLINE Columns16<Count> sum() const {
+    Columns16<Count> Node = zeroColumns<Count>();
     for (unsigned L = 0; L != Levels; ++L)
       if (Full >> L & 1) {
-        Columns16 Left = Level[L];
+        Columns16<Count> Left = Level[L];
         raster::add(Left, Node);
         Node = Left;
       }
@@ -58,7 +58,7 @@ public:
 
 private:
   static constexpr unsigned Levels = 7; ///< of 64 rows
-  Columns16 Level[Levels];
+  Columns16<Count> Level[Levels];
   uint32_t Full = 0;
 };
 
@@ -71,17 +71,18 @@ VORION_INLINE float acrossColumns(Float16 V) {
 }
 
 /// One block of pixels of one row.
-struct Block {
-  const Conic::Columns &C;
+template <typename Body> struct Block {
+  const typename Body::Columns &C;
+  const typename Body::Row &R;
   unsigned At;
-  float Dy;
   Float16 Wanted; ///< opacity times falloff
   Int16 Counts;
 };
 
-VORION_INLINE void through(const Block &P, const Gaussian &G,
+template <typename Body>
+VORION_INLINE void through(const Block<Body> &P, const typename Body::Record &G,
                            const BackwardOptions &Options, BackwardBuffer &Tile,
-                           Columns16 &Row) {
+                           SumsOf<Body> &Row) {
   const Float16 Alpha = P.Wanted < MaxAlpha ? P.Wanted : Float16(MaxAlpha);
   const Float16 Behind = load(Tile.Behind + P.At);
   const Float16 Before = load(Tile.T + P.At);
@@ -103,51 +104,49 @@ VORION_INLINE void through(const Block &P, const Gaussian &G,
   store(Tile.T + P.At, P.Counts ? T : Before);
   store(Tile.Behind + P.At, P.Counts ? Behind + Alpha * Gain : Behind);
 
-  const Float16 Sx = S * -P.C.Dx;
-  const Float16 Sy = S * -P.Dy;
-  const Float16 Parts[SumCount] = {
-      Weight * Red, Weight * Green, Weight * Blue, S,         Sx,
-      Sy,           Sx * -P.C.Dx,   Sx * -P.Dy,    Sy * -P.Dy};
-  for (unsigned K = 0; K != SumCount; ++K)
-    Row.Sum[K] += P.Counts ? Parts[K] : Float16(0.0F);
+  SumsOf<Body> Parts{{Weight * Red, Weight * Green, Weight * Blue, S}};
+  Body::moments(G, P.C, P.R, Options.IsDegree4, S, Parts.Sum + 4);
+  for (unsigned K = 0; K != 4 + Body::MomentCount; ++K)
+    Row.Sum[K] += P.Counts ? Parts.Sum[K] : Float16(0.0F);
 }
 
-template <typename Exp>
-BoxWork back(const Gaussian &G, const BackwardOptions &Options,
+template <typename Body, typename Exp>
+BoxWork back(const typename Body::Record &G, const BackwardOptions &Options,
              BackwardBuffer &Tile, GradientSums &Out) {
+  constexpr unsigned Count = 4 + Body::MomentCount;
   Out = {G.Tag, {}};
-  const CutBox Box = Conic::box(G, Tile.CentreX, Tile.CentreY);
+  const CutBox Box = Body::box(G, Tile.CentreX, Tile.CentreY);
   if (Box.Missed)
     return missed();
 
   // Aligned, since a column's place decides where the gather adds it.
   const unsigned FirstBlock = Box.FirstX / LaneCount;
   const unsigned Used = Box.LastX / LaneCount - FirstBlock + 1;
-  Conic::Columns Column[Blocks];
+  typename Body::Columns Column[Blocks];
   for (unsigned I = 0; I != Used; ++I)
-    Column[I] = Conic::columns((FirstBlock + I) * LaneCount, G, Tile.CentreX);
+    Column[I] = Body::columns((FirstBlock + I) * LaneCount, G, Tile.CentreX);
 
   const float Bound = powerBound(G.Opacity, Options.MinAlpha, Exp::Margin);
   const auto Entry = static_cast<int32_t>(Options.Entry);
   unsigned Blends = 0, LiveInBox = 0;
-  RowTree Tree;
-  Columns16 Sum = zeroColumns();
+  RowTree<Count> Tree;
+  Columns16<Count> Sum = zeroColumns<Count>();
   for (unsigned Y = Box.FirstY; Y <= Box.LastY; ++Y) {
-    Columns16 Row = zeroColumns();
+    Columns16<Count> Row = zeroColumns<Count>();
     const unsigned Skipped = Tile.RowLast[Y] <= Options.Entry ? Used : 0;
-    const Conic::Row Terms = Conic::row(G, Tile.CentreY[Y]);
+    const typename Body::Row Terms = Body::row(G, Tile.CentreY[Y]);
     for (unsigned I = Skipped; I != Used; ++I) {
-      const Conic::Columns &C = Column[I];
+      const typename Body::Columns &C = Column[I];
       const unsigned At = Y * BackwardBuffer::Stride + C.First;
       const Int16 Live = C.Inside & (load(Tile.Last + At) > Entry);
       if (Options.SkipSaturated)
         LiveInBox += countBits(bits(Live));
       const auto [Counts, Wanted] =
-          reach<Exp>(Conic::power(G, C, Terms, false), G.Opacity, Live, Bound,
-                     Options.MinAlpha);
+          reach<Exp>(Body::power(G, C, Terms, Options.IsDegree4), G.Opacity,
+                     Live, Bound, Options.MinAlpha);
       if (bits(Counts) == 0)
         continue;
-      through({C, At, Terms.Dy, Wanted, Counts}, G, Options, Tile, Row);
+      through<Body>({C, Terms, At, Wanted, Counts}, G, Options, Tile, Row);
       Blends += countBits(bits(Counts));
     }
     if (Options.InRows)
@@ -157,7 +156,7 @@ BoxWork back(const Gaussian &G, const BackwardOptions &Options,
   }
   if (!Options.InRows)
     Sum = Tree.sum();
-  for (unsigned K = 0; K != SumCount; ++K)
+  for (unsigned K = 0; K != Count; ++K)
     Out.Sums[K] = acrossColumns(Sum.Sum[K]);
   return workOf(Box,
                 Options.SkipSaturated ? LiveInBox : Box.width() * Box.height(),
@@ -172,7 +171,11 @@ void evaluateReciprocals(Reciprocal Unit, float *Values, std::size_t Count) {
 template <typename... Es>
 constexpr BackwardDatapath makeDatapath(const char *Name,
                                         bool (*HostSupports)(), List<Es...>) {
-  return {Name, HostSupports, {back<Es>...}, evaluateReciprocals};
+  return {Name,
+          HostSupports,
+          {back<BlendedBody<VR_PRIMITIVE_CONIC>, Es>...},
+          {back<BlendedBody<VR_PRIMITIVE_RAY>, Es>...},
+          evaluateReciprocals};
 }
 
 } // namespace

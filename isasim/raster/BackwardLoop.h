@@ -7,14 +7,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <type_traits>
 
 namespace vorion::raster {
 
-using Sums = std::array<float, 9>;
+using Sums = decltype(GradientSums::Sums);
 
 /// A tile that was rendered, and the loss's gradient by its pixels.
-struct Scene {
-  std::vector<Gaussian> Gaussians;
+template <typename Record> struct SceneOf {
+  std::vector<Record> Gaussians;
   unsigned X, Y, Width, Height;
   /// By row and column of the tile.
   std::vector<Pixel> Rendered, Upstream;
@@ -24,6 +25,8 @@ struct Scene {
     return std::size_t{Row} * Width + Column;
   }
 };
+
+using Scene = SceneOf<Gaussian>;
 
 /// What a broken loop does otherwise.
 struct BackwardLoop {
@@ -72,9 +75,75 @@ inline float reciprocalOf(Reciprocal Unit, float Alpha) {
   return V[0];
 }
 
+/// What pixel centre (Px, Py) sees of a Gaussian: a power that is no number
+/// outside of its box.
+struct OffsetOfConic {
+  float Dx, Dy, Power;
+  OffsetOfConic(const Gaussian &G, float Px, float Py, bool)
+      : Dx(G.Mean[0] - Px), Dy(G.Mean[1] - Py),
+        Power(-0.5F * (G.Conic[0] * Dx * Dx + G.Conic[2] * Dy * Dy) -
+              G.Conic[1] * Dx * Dy) {
+    if (!(std::fabs(Dx) <= G.Extent[0]) || !(std::fabs(Dy) <= G.Extent[1]))
+      Power = NotANumber;
+  }
+  /// What is summed beside colour and s.
+  void moments(float V, Sums &To) const {
+    const float Vx = V * -Dx, Vy = V * -Dy;
+    To[4] = Vx;
+    To[5] = Vy;
+    To[6] = Vx * -Dx;
+    To[7] = Vx * -Dy;
+    To[8] = Vy * -Dy;
+  }
+};
+
+/// The same of a ray.
+struct OffsetOfRay {
+  float U, V, Q, Power;
+  bool IsDegree4;
+  OffsetOfRay(const RayGaussian &G, float Px, float Py, bool IsDegree4)
+      : IsDegree4(IsDegree4) {
+    const float Column = static_cast<float>(G.First & 0xFFFF) + 0.5F;
+    const float Row = static_cast<float>(G.First >> 16) + 0.5F;
+    const float Dx = (Px - Column) - G.Mean[0];
+    const float Dy = (Py - Row) - G.Mean[1];
+    const float Across = G.Factor[0] * Dx + G.Factor[1] * Dy;
+    const float Down = G.Factor[2] * Dy;
+    const float Beside = Across * Across + Down * Down;
+    const float L = (1.0F + G.Slope[0] * Dx) + G.Slope[1] * Dy;
+    const float Far = L * L + G.Near * Beside;
+    Q = Beside / Far;
+    U = Across * (L / Far);
+    V = Down * (L / Far);
+    Power = IsDegree4 ? -1.0F / 18.0F * Q * Q : -0.5F * Q;
+    const bool IsInBox = Px >= Column && Py >= Row &&
+                         Px <= static_cast<float>(G.Last & 0xFFFF) + 0.5F &&
+                         Py <= static_cast<float>(G.Last >> 16) + 0.5F;
+    if (!(L > 0.0F) || !IsInBox)
+      Power = NotANumber;
+  }
+  void moments(float S, Sums &To) const {
+    const float T = IsDegree4 ? S * Q : S;
+    To[4] = T * U;
+    To[5] = T * V;
+    To[6] = T * U * U;
+    To[7] = T * U * V;
+    To[8] = T * V * V;
+    To[9] = T * U * Q;
+    To[10] = T * V * Q;
+    To[11] = T * Q * Q;
+  }
+};
+
+template <typename Record>
+using OffsetOf = std::conditional_t<std::is_same_v<Record, Gaussian>,
+                                    OffsetOfConic, OffsetOfRay>;
+
 /// docs/abi.md, "Backward", one pixel at a time.
-inline std::vector<GradientSums>
-scalar(const Scene &S, const BackwardOptions &O, const BackwardLoop &L = {}) {
+template <typename Record>
+std::vector<GradientSums> scalarLoop(const SceneOf<Record> &S,
+                                     const BackwardOptions &O,
+                                     const BackwardLoop &L = {}) {
   std::vector<float> T, Behind;
   for (std::size_t I = 0; I != S.Last.size(); ++I) {
     T.push_back(S.Rendered[I].T);
@@ -82,20 +151,16 @@ scalar(const Scene &S, const BackwardOptions &O, const BackwardLoop &L = {}) {
   }
   std::vector<GradientSums> Out(S.Gaussians.size());
   for (std::size_t Entry = S.Gaussians.size(); Entry-- != 0;) {
-    const Gaussian &G = S.Gaussians[Entry];
+    const Record &G = S.Gaussians[Entry];
     Parts P;
     for (unsigned Row = 0; Row != S.Height; ++Row)
       for (unsigned Column = 0; Column != S.Width; ++Column) {
         const std::size_t I = S.at(Column, Row);
-        const float Dx = G.Mean[0] - (static_cast<float>(S.X + Column) + 0.5F);
-        const float Dy = G.Mean[1] - (static_cast<float>(S.Y + Row) + 0.5F);
-        if (S.Last[I] <= Entry || !(std::fabs(Dx) <= G.Extent[0]) ||
-            !(std::fabs(Dy) <= G.Extent[1]))
-          continue;
-        const float Power =
-            -0.5F * (G.Conic[0] * Dx * Dx + G.Conic[2] * Dy * Dy) -
-            G.Conic[1] * Dx * Dy;
-        if (!(Power <= 0.0F))
+        const OffsetOf<Record> Offset(
+            G, static_cast<float>(S.X + Column) + 0.5F,
+            static_cast<float>(S.Y + Row) + 0.5F, O.IsDegree4);
+        const float Power = Offset.Power;
+        if (S.Last[I] <= Entry || !(Power <= 0.0F))
           continue;
         const float Wanted =
             G.Opacity *
@@ -115,18 +180,25 @@ scalar(const Scene &S, const BackwardOptions &O, const BackwardLoop &L = {}) {
         const float Weight = Alpha * T[I];
         const float V =
             O.ClampStops && Wanted > 0.99F ? 0.0F : Wanted * (T[I] * Gain);
-        const float Vx = V * -Dx, Vy = V * -Dy;
+        Sums Own{Weight * U.R, Weight * U.G, Weight * U.B, V};
+        Offset.moments(V, Own);
         Sums &To = P.Rows[Row][Column % 16];
-        To = plus(To, {Weight * U.R, Weight * U.G, Weight * U.B, V, Vx, Vy,
-                       Vx * -Dx, Vx * -Dy, Vy * -Dy});
+        To = plus(To, Own);
       }
     Out[Entry] = {G.Tag, gather(P, O.InRows)};
   }
   return Out;
 }
 
-inline std::vector<GradientSums> onLevel(const BackwardDatapath &Level,
-                                         const Scene &S, BackwardOptions O) {
+template <typename Record>
+std::vector<GradientSums> onLevel(const BackwardDatapath &Level,
+                                  const SceneOf<Record> &S, BackwardOptions O) {
+  const BackFunction<Record> Back = [&Level] {
+    if constexpr (std::is_same_v<Record, Gaussian>)
+      return Level.Conics[0];
+    else
+      return Level.Rays[0];
+  }();
   auto Tile = std::make_unique<BackwardBuffer>();
   Tile->reset(S.X, S.Y, S.Width, S.Height);
   for (unsigned Row = 0; Row != S.Height; ++Row)
@@ -143,7 +215,7 @@ inline std::vector<GradientSums> onLevel(const BackwardDatapath &Level,
     }
   std::vector<GradientSums> Out(S.Gaussians.size());
   for (O.Entry = static_cast<uint32_t>(Out.size()); O.Entry-- != 0;)
-    Level.Back[0](S.Gaussians[O.Entry], O, *Tile, Out[O.Entry]);
+    Back(S.Gaussians[O.Entry], O, *Tile, Out[O.Entry]);
   return Out;
 }
 

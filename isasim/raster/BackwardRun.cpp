@@ -5,11 +5,21 @@
 
 namespace vorion::raster {
 
+/// Of the front end with such records.
+template <typename Record>
+static BackFunction<Record> backFunction(const Job &J,
+                                         const BackwardDatapath &Lanes) {
+  if constexpr (std::is_same_v<Record, Gaussian>)
+    return Lanes.Conics[expRow(J.Units.Exp)];
+  else
+    return Lanes.Rays[expRow(J.Units.Exp)];
+}
+
 BackwardRun::BackwardRun(const RasterAgent &Agent, RasterMemory &Global,
                          BackwardBuffer &Buffer, const BackwardDatapath &Lanes,
                          const WorkLog *Log)
     : BatchRun(beginCommand(Agent, Global)), Memory(Global), Tile(Buffer),
-      Unit(Lanes), Options(Task.Backward), List(Task, Memory),
+      Unit(Lanes), Options(Task.Backward),
       KeepsFetches(Log && Log->wantsFetches()) {
   if (!Work.hasFailed())
     load();
@@ -43,15 +53,16 @@ void BackwardRun::load() {
   }
 }
 
+template <typename Record>
 uint32_t BackwardRun::through(uint32_t Entry, GradientSums &Sums) {
-  Fetched Input;
-  const uint32_t Found = List.fetch(Entry, Input);
+  FetchedRecord<Record> Input;
+  const uint32_t Found = RecordList<Record>(Task, Memory).fetch(Entry, Input);
   Work.Counts.Gaussians += Found != VR_UNMAPPED;
   if (Found)
     return Found;
   Options.Entry = Entry;
-  const BoxWork Done =
-      Unit.Back[expRow(Task.Units.Exp)](Input.Record, Options, Tile, Sums);
+  const BackFunction<Record> Back = backFunction<Record>(Task, Unit);
+  const BoxWork Done = Back(Input.Record, Options, Tile, Sums);
   Work.Counts.Intersecting += Input.Intersects;
   Work.Counts.Clipped += Done.Clipped;
   Work.Counts.Fragments += Done.Fragments;
@@ -70,7 +81,8 @@ std::optional<Batch> BackwardRun::next() {
   Made.Count = Left - First;
   for (; Left != First; --Left) {
     GradientSums Sums;
-    Work.Status = through(Left - 1, Sums);
+    Work.Status = Task.Units.isConic() ? through<Gaussian>(Left - 1, Sums)
+                                       : through<RayGaussian>(Left - 1, Sums);
     if (Work.hasFailed())
       return std::nullopt;
     Made.Items[Left - 1 - First] = itemOf(Sums);

@@ -22,13 +22,13 @@ public:
 
 private:
   void load();
+  template <typename Record>
   uint32_t through(uint32_t Entry, GradientSums &Sums);
 
   RasterMemory &Memory;
   BackwardBuffer &Tile;
   const BackwardDatapath &Unit;
   BackwardOptions Options;
-  GaussianList List;
   uint32_t Left = 0; ///< entries in front of what has been handed over
   bool KeepsFetches;
 };

@@ -70,6 +70,20 @@ public:
                                      const Row &R, bool) {
     return -0.5F * (C.AX2 + R.CY2) - C.BX * R.Dy;
   }
+
+  /// \name Backward: what is summed of s = opacity exp(power) dL/dalpha
+  /// @{
+  static constexpr unsigned MomentCount = 5;
+  VORION_INLINE static void moments(const Gaussian &, const Columns &C,
+                                    const Row &R, bool, Float16 S,
+                                    Float16 *To) {
+    To[0] = S * -C.Dx;
+    To[1] = S * -R.Dy;
+    To[2] = To[0] * -C.Dx;
+    To[3] = To[0] * -R.Dy;
+    To[4] = To[1] * -R.Dy;
+  }
+  /// @}
 };
 
 /// Numbers that count pixels are exact, and so are their differences.
@@ -87,6 +101,13 @@ private:
   VORION_INLINE static float centre(uint32_t Number) {
     return static_cast<float>(Number) + 0.5F;
   }
+  /// Where the ray meets the Gaussian.
+  struct Meeting {
+    Float16 U, L;
+    Float16 Far; ///< what the square of the distance is divided by
+    Float16 Q;
+  };
+
   VORION_INLINE static Ends across(const RayGaussian &G) {
     return {centre(G.First & 0xFFFF), centre(G.Last & 0xFFFF)};
   }
@@ -105,6 +126,7 @@ public:
   };
   struct Row {
     float BY;  ///< b * dy
+    float V;   ///< c * dy
     float CY2; ///< (c * dy)^2
     float LY;  ///< the slope along rows * dy
   };
@@ -125,19 +147,47 @@ public:
   VORION_INLINE static Row row(const RayGaussian &G, float CentreY) {
     const float Dy = CentreY - down(G).First - G.Mean[1];
     const float V = G.Factor[2] * Dy;
-    return {G.Factor[1] * Dy, V * V, G.Slope[1] * Dy};
+    return {G.Factor[1] * Dy, V, V * V, G.Slope[1] * Dy};
+  }
+
+  VORION_INLINE static Meeting meet(const RayGaussian &G, const Columns &C,
+                                    const Row &R) {
+    const Float16 U = C.AX + R.BY;
+    const Float16 Beside = U * U + R.CY2;
+    const Float16 L = C.LX + R.LY;
+    const Float16 Far = L * L + G.Near * Beside;
+    return {U, L, Far, Beside / Far};
   }
 
   VORION_INLINE static Float16 power(const RayGaussian &G, const Columns &C,
                                      const Row &R, bool IsDegree4) {
-    const Float16 U = C.AX + R.BY;
-    const Float16 Beside = U * U + R.CY2;
-    const Float16 L = C.LX + R.LY;
-    const Float16 Q = Beside / (L * L + G.Near * Beside);
-    const Float16 Power = IsDegree4 ? Degree4 * Q * Q : -0.5F * Q;
+    const Meeting M = meet(G, C, R);
+    const Float16 Power = IsDegree4 ? Degree4 * M.Q * M.Q : -0.5F * M.Q;
     // Where the plane is not above 0, the ray has the Gaussian behind it.
-    return L > 0.0F ? Power : Float16(__builtin_nanf(""));
+    return M.L > 0.0F ? Power : Float16(__builtin_nanf(""));
   }
+
+  /// \name Backward, as the conic's
+  /// @{
+  static constexpr unsigned MomentCount = 8;
+  VORION_INLINE static void moments(const RayGaussian &G, const Columns &C,
+                                    const Row &R, bool IsDegree4, Float16 S,
+                                    Float16 *To) {
+    const Meeting M = meet(G, C, R);
+    const Float16 K = M.L / M.Far;
+    const Float16 U = M.U * K, V = R.V * K;
+    const Float16 T = IsDegree4 ? S * M.Q : S;
+    const Float16 Deep = T * M.Q;
+    To[0] = T * U;
+    To[1] = T * V;
+    To[2] = To[0] * U;
+    To[3] = To[0] * V;
+    To[4] = To[1] * V;
+    To[5] = To[0] * M.Q;
+    To[6] = To[1] * M.Q;
+    To[7] = Deep * M.Q;
+  }
+  /// @}
 };
 
 } // namespace

@@ -42,11 +42,13 @@ struct Pixel {
 };
 static_assert(sizeof(Pixel) == 16, "docs/abi.md: four floats a pixel");
 
-/// What a Gaussian is handed over with: the words of vr_grad_tag to _syy.
+/// What a Gaussian is handed over with: the words of vr_grad_tag to _syy, and
+/// those that only rays have.
 struct GradientSums {
   uint32_t Tag = 0;
-  /// dL/dr, dL/dg, dL/db; s, s dx, s dy, s dx dx, s dx dy, s dy dy.
-  std::array<float, 9> Sums{};
+  /// dL/dr, dL/dg, dL/db; s, s dx, s dy, s dx dx, s dx dy, s dy dy; and of
+  /// rays, whose other sums docs/abi.md has, three more.
+  std::array<float, 12> Sums{};
 
   bool operator==(const GradientSums &) const = default;
 };

@@ -53,7 +53,7 @@ TEST_P(HardBackward, TransmittanceMayRiseAbove1) {
   // The alpha whose front T comes out largest.
   float Most = 0, At = 0;
   for (float Alpha = 0.02F; Alpha < 0.3F; Alpha += 0.0037F) {
-    const auto Is = scalar(stackOf(Layers, Alpha), O);
+    const auto Is = scalarLoop(stackOf(Layers, Alpha), O);
     // All pixels have one weight, alpha T.
     const float T = Is[0].Sums[0] / 32 / Alpha;
     if (T > Most) {
@@ -66,8 +66,8 @@ TEST_P(HardBackward, TransmittanceMayRiseAbove1) {
   }
   EXPECT_GT(Most, 1) << Unit.Name << " at " << At;
   const Scene S = stackOf(Layers, At);
-  const auto Want = scalar(S, O);
-  EXPECT_FALSE(same(Want, scalar(S, O, {.HoldsT = true})));
+  const auto Want = scalarLoop(S, O);
+  EXPECT_FALSE(same(Want, scalarLoop(S, O, {.HoldsT = true})));
   for (const BackwardDatapath *Level : backwardDatapaths())
     EXPECT_TRUE(same(Want, onLevel(*Level, S, O))) << Level->Name;
 }

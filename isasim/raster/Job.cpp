@@ -32,6 +32,7 @@ static BackwardOptions backwardOptions(const Command &C,
   O.ClampStops = BackwardClampStops.get(C.Backward) != 0;
   O.InRows = BackwardInRows.get(C.Backward) != 0;
   O.SkipSaturated = Forward.SkipSaturated;
+  O.IsDegree4 = Forward.IsDegree4;
   O.MinAlpha = Forward.MinAlpha;
   return O;
 }
@@ -85,11 +86,12 @@ static Job decode(const Command &C) {
 static bool isKnownTraining(const Command &C, const Job &J) {
   const uint32_t Known = BackwardReciprocal.put(BackwardReciprocal.mask()) |
                          BackwardClampStops.put(1) | BackwardInRows.put(1);
+  const uint32_t Mode = C.Mode & ~ModePrimitive.put(ModePrimitive.mask());
   if (!J.IsBackward)
     return !J.KeepsLast ||
-           ((C.Mode & ~ModeLimited.put(1)) == ModeKeepLast.put(1) &&
+           ((Mode & ~ModeLimited.put(1)) == ModeKeepLast.put(1) &&
             ZtileCount.get(C.Ztile) <= 1);
-  return C.Mode == ModeBackward.put(1) && J.Units.Blend == VR_BLEND_FP32 &&
+  return Mode == ModeBackward.put(1) && J.Units.Blend == VR_BLEND_FP32 &&
          ZtileCount.get(C.Ztile) <= 1 && (C.Backward & ~Known) == 0 &&
          static_cast<std::size_t>(J.Backward.Unit) < ReciprocalUnitCount;
 }

@@ -20,9 +20,9 @@ static unsigned gaussianWord(Csr C) {
   return static_cast<unsigned>(C) - static_cast<unsigned>(Csr::GMeanX);
 }
 
-/// The CSRs of a handed-over Gaussian are the words of GradientSums.
+/// The CSRs of a handed-over Gaussian are the first words of GradientSums.
 static_assert(static_cast<unsigned>(Csr::GradSyy) -
-                  static_cast<unsigned>(Csr::GradTag) + 1 ==
+                  static_cast<unsigned>(Csr::GradTag) + 1 <=
               sizeof(GradientSums) / 4);
 
 static bool isGradientWord(Csr C) {

@@ -1,5 +1,6 @@
 // Gaussians as rays meet them: bit for bit against a scalar loop on every
 // vector level, against the definition in doubles, and as commands.
+#include "raster/BackwardLoop.h"
 #include "raster/Datapath.h"
 #include "raster/RasterTest.h"
 #include "raster/ScalarUnits.h"
@@ -236,6 +237,45 @@ TEST(Rays, EveryLevelHasTheBitsOfTheScalarLoop) {
   }
 }
 
+/// A tile of 40 x 24 pixels that rays drew, and a gradient of it.
+SceneOf<RayGaussian> drawnRays(uint32_t Seed, bool IsDegree4) {
+  RayScene Rays = randomRays(Seed, 60);
+  const Result Drawn =
+      onePixelAtATime(Rays, VR_EXP_EXACT, VR_BLEND_FP32, IsDegree4);
+  SceneOf<RayGaussian> S{Rays.Records, 0, 0, 40, 24, {}, {}, {}};
+  std::mt19937 Engine(Seed);
+  const auto Any = [&] {
+    return static_cast<float>(Engine()) * 0x1p-31F - 1.0F;
+  };
+  for (unsigned Y = 0; Y != S.Height; ++Y)
+    for (unsigned X = 0; X != S.Width; ++X) {
+      S.Rendered.push_back(Drawn.Pixels[Y * 64 + X]);
+      S.Upstream.push_back({Any(), Any(), Any(), Any()});
+      // Wherever it is: what lies behind it is not looked at.
+      S.Last.push_back(Engine() % 61);
+    }
+  return S;
+}
+
+TEST(Rays, EveryLevelHasTheSumsOfTheScalarLoop) {
+  for (const BackwardDatapath *Level : backwardDatapaths())
+    for (uint32_t Seed = 0; Seed != 12; ++Seed) {
+      BackwardOptions O;
+      O.Unit = static_cast<Reciprocal>(Seed % ReciprocalUnitCount);
+      O.ClampStops = Seed % 3 == 0;
+      O.InRows = Seed % 2 == 0;
+      O.IsDegree4 = Seed % 4 == 1;
+      const auto S = drawnRays(Seed, O.IsDegree4);
+      const auto Right = scalarLoop(S, O), Is = onLevel(*Level, S, O);
+      unsigned Deep = 0;
+      for (std::size_t I = 0; I != Right.size(); ++I) {
+        ASSERT_EQ(Is[I], Right[I]) << Level->Name << ' ' << Seed << ' ' << I;
+        Deep += Right[I].Sums[11] != 0;
+      }
+      EXPECT_GT(Deep, 10U);
+    }
+}
+
 /// docs/primitives.md#rays has the bound. A record's own rounding counts, too.
 TEST(Rays, TheQuotientIsTheDefinitionWithinItsBound) {
   constexpr double Ulp = 0x1p-24;
@@ -280,6 +320,9 @@ TEST(Rays, TheQuotientIsTheDefinitionWithinItsBound) {
 
 class RaysTest : public RasterTest {
 protected:
+  static constexpr uint32_t Lasts = Records + 0x680000;
+  static constexpr uint32_t Upstream = Records + 0x700000;
+
   /// In front of the tile's pixel (20, 12), a few pixels wide.
   static RayGaussian near() {
     return {20 | 12U << 16,
@@ -327,6 +370,40 @@ TEST_F(RaysTest, ACommandBlendsAList) {
   const Result Right = onePixelAtATime(Own, VR_EXP_EXACT, VR_BLEND_FP32, false);
   EXPECT_EQ(pixels(), Right.Pixels);
   EXPECT_EQ(Agent.counters().Blends, Right.Blends);
+}
+
+TEST_F(RaysTest, ABackwardCommandHandsOverTwelveSums) {
+  const SceneOf<RayGaussian> S = drawnRays(5, false);
+  configureRays(S.Gaussians, ModeBackward.put(1));
+  set(Csr::TileShape,
+      TileShapeWidth.put(S.Width) | TileShapeHeight.put(S.Height));
+  set(Csr::Last, Lasts);
+  set(Csr::Upstream, Upstream);
+  for (unsigned Y = 0; Y != S.Height; ++Y) {
+    const std::size_t I = S.at(0, Y);
+    Memory.put(Pixels + Y * Pitch, std::span(&S.Rendered[I], S.Width));
+    Memory.put(Upstream + Y * Pitch, std::span(&S.Upstream[I], S.Width));
+    Memory.put(Lasts + Y * Pitch / 4, std::span(&S.Last[I], S.Width));
+  }
+  set(Csr::Start, 1U);
+  while (Unit.step()) {
+  }
+  const auto Right = scalarLoop(S, {});
+  for (uint32_t Next; (Next = Agent.read(Csr::GradNext, 0)) != 0;) {
+    for (unsigned L = 0; L != GradNextCount.get(Next); ++L) {
+      const GradientSums &Want =
+          Right[VR_GRAD_LANES * GradNextBatch.get(Next) + L];
+      const BatchItem Words = itemOf(Want);
+      for (uint32_t K = 0; K != Words.size(); ++K) {
+        set(Csr::Index, K);
+        EXPECT_EQ(Agent.read(Csr::Item, L), Words[K]) << L << ' ' << K;
+      }
+      EXPECT_EQ(Agent.read(Csr::GradSyy, L), Words[9]);
+    }
+    while (Unit.step()) {
+    }
+  }
+  EXPECT_EQ(Agent.read(Csr::Wait, 0), VR_OK);
 }
 
 TEST_F(RaysTest, BehindTheRayIsNothing) {
@@ -397,8 +474,6 @@ TEST_F(RaysTest, CommandsThatRaysDoNotHaveAreRefused) {
       {Csr::Mode, Mode, VR_OK},
       {Csr::Mode, Mode | ModeDrain.put(1), VR_OK},
       {Csr::Mode, Mode | ModePushed.put(1), VR_BAD_MODE},
-      {Csr::Mode, Mode | ModeKeepLast.put(1), VR_BAD_MODE},
-      {Csr::Mode, Mode | ModeBackward.put(1), VR_BAD_MODE},
       {Csr::Mode, Mode | ModeFragments.put(1), VR_BAD_MODE},
       {Csr::Options, OptionsDegree4.put(1), VR_OK},
       {Csr::Options, 1U << 11, VR_BAD_MODE},

@@ -11,6 +11,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Tool.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <cstring>
@@ -311,9 +312,11 @@ BackwardTile backwardTile(uint32_t Seed) {
   for (uint32_t Entry = T.What.Gaussians; Entry-- != 0;) {
     Options.Entry = Entry;
     GradientSums Sums;
-    backwardDatapaths().front()->Back[expRow(VR_EXP_TABLE)](
+    backwardDatapaths().front()->Conics[expRow(VR_EXP_TABLE)](
         S.Gaussians[Entry], Options, *Buffer, Sums);
-    T.Sums[Entry] = std::bit_cast<std::array<uint32_t, 9>>(Sums.Sums);
+    std::ranges::transform(
+        std::span(Sums.Sums).first<9>(), T.Sums[Entry].begin(),
+        [](float Sum) { return std::bit_cast<uint32_t>(Sum); });
   }
   Each([&](unsigned At, unsigned) {
     T.After.push_back({std::bit_cast<uint32_t>(Buffer->T[At]),

@@ -105,6 +105,8 @@ void Clock::collectRasters(TimeReport &R) const {
   for (uint8_t N = 0; N != raster::BlendUnitCount; ++N)
     Add("rasterizer blend", blendUnitName(N), Work.Blended[N]);
   Add("rasterizer gradients", "pixels", Work.Gradients);
+  if (Work.RayGradients != 0)
+    Add("rasterizer gradients", "pixels of rays", Work.RayGradients);
   if (Work.allCovered() != 0) {
     for (size_t N = 1; N != Work.Covered.size(); ++N)
       if (Work.Covered[N] != 0)

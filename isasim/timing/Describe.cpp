@@ -85,6 +85,10 @@ std::string timingMarkdown() {
     for (const DatapathUnit &U : backwardUnits(static_cast<unsigned>(R)))
       if (R == 0 || U.Name == raster::ReciprocalUnits[R].Name)
         Row(U);
+  const raster::LaneUnits Rays{
+      .FrontEnd = raster::frontEndRowOf(raster::VR_PRIMITIVE_RAY)};
+  for (const DatapathUnit &U : backwardUnits(0, Rays).subspan(1))
+    Row(U);
   return Text;
 }
 

@@ -72,8 +72,8 @@ static inline void vx_raster_from(uint from) {
   vr_word_set(from);
 }
 
-/* After vx_raster_setup, and after vx_raster_keep_counts where that is used:
-   the records are vx_ray_gaussian. */
+/* After vx_raster_setup, and after vx_raster_keep_last or vx_raster_keep_counts
+   where that is used: the records are vx_ray_gaussian. */
 static inline void vx_raster_rays(void) {
   vr_mode_set(vr_mode() | VR_PRIMITIVE_RAY << VR_MODE_PRIMITIVE_SHIFT);
 }
@@ -87,6 +87,18 @@ static inline void vx_raster_sequence(uint load, uint keep) {
               keep << VR_MODE_KEEP_SATURATED_SHIFT);
 }
 
+static inline void vx_raster_backward_of(uint primitive, uint list, uint count,
+                                         uint x, uint y, uint width,
+                                         uint height, uint output, uint last,
+                                         uint upstream, uint options) {
+  vr_mode_set(1 << VR_MODE_BACKWARD_SHIFT | primitive
+                                                << VR_MODE_PRIMITIVE_SHIFT);
+  vr_last_set(last);
+  vr_upstream_set(upstream);
+  vr_backward_set(options);
+  vx_raster_render(list, count, x, y, width, height, output);
+}
+
 /* For training: queues the way back through a tile that vx_raster_render has
    left at `output` with its last contributors at `last`; `upstream` has the
    pixels' gradients, `options` is vr_backward. The core has to take what is
@@ -94,11 +106,17 @@ static inline void vx_raster_sequence(uint load, uint keep) {
 static inline void vx_raster_backward(uint list, uint count, uint x, uint y,
                                       uint width, uint height, uint output,
                                       uint last, uint upstream, uint options) {
-  vr_mode_set(1 << VR_MODE_BACKWARD_SHIFT);
-  vr_last_set(last);
-  vr_upstream_set(upstream);
-  vr_backward_set(options);
-  vx_raster_render(list, count, x, y, width, height, output);
+  vx_raster_backward_of(VR_PRIMITIVE_CONIC, list, count, x, y, width, height,
+                        output, last, upstream, options);
+}
+
+/* Likewise, where the records are vx_ray_gaussian. */
+static inline void vx_raster_rays_backward(uint list, uint count, uint x,
+                                           uint y, uint width, uint height,
+                                           uint output, uint last,
+                                           uint upstream, uint options) {
+  vx_raster_backward_of(VR_PRIMITIVE_RAY, list, count, x, y, width, height,
+                        output, last, upstream, options);
 }
 
 /* After vx_raster_setup with options 0: the records are vx_triangle

@@ -1,6 +1,8 @@
 #include "Gradients.h"
 
+#include "Convert.h"
 #include "io/Metrics.h"
+#include "reference/AlongRays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +27,9 @@ std::vector<double> flat(const std::vector<T> &V, int Count) {
   return Out;
 }
 
-/// Of the quaternions that \p F stores, of any length.
-std::vector<double> storedQuats(const Fixture &F,
+/// Of the quaternions \p Stored, of any length.
+std::vector<double> storedQuats(const std::vector<double> &Stored,
                                 const reference::Gradients &D) {
-  const auto Stored = F.doubles("in_quats");
   std::vector<double> Out;
   Out.reserve(Stored.size());
   for (std::size_t I = 0; I < D.Quats.size(); ++I) {
@@ -40,11 +41,12 @@ std::vector<double> storedQuats(const Fixture &F,
   return Out;
 }
 
-double logScaleNorm(const Fixture &F, const reference::Gradients &D) {
+double logScaleNorm(const reference::Gaussians<double> &G,
+                    const reference::Gradients &D) {
   std::vector<double> V;
   for (std::size_t I = 0; I < D.Scales.size(); ++I)
     for (int K = 0; K < 3; ++K)
-      V.push_back(D.Scales[I][K] * F.Gaussians.Scales[I][K]);
+      V.push_back(D.Scales[I][K] * G.Scales[I][K]);
   return norm(V);
 }
 
@@ -86,6 +88,54 @@ double ownError(const Fixture &F, const std::string &Name, double Scale) {
                                        : 0;
 }
 
+void leaveOut(reference::Upstream &U, const std::vector<uint8_t> &Doubts) {
+  for (std::size_t I = 0; I < Doubts.size(); ++I)
+    if (Doubts[I]) {
+      U.Render[I] = glm::dvec3(0);
+      U.Alpha[I] = 0;
+    }
+}
+
+splat::Npz arraysOf(const reference::Upstream &U,
+                    const reference::Camera<double> &C) {
+  const auto H = static_cast<std::size_t>(C.Height);
+  const auto W = static_cast<std::size_t>(C.Width);
+  return {{"in_v_render", NpyArray::of({H, W, 3}, flat(U.Render, 3))},
+          {"in_v_alpha", NpyArray::of({H, W}, U.Alpha)}};
+}
+
+/// Without what only footprints have.
+splat::Npz arraysOf(const reference::Gradients &D,
+                    const reference::Gaussians<double> &G,
+                    const std::vector<double> &Stored) {
+  const std::size_t N = G.size();
+  splat::Npz E{{"f64_g_means2d", NpyArray::of({N, 2}, flat(D.Means2d, 2))},
+               {"f64_g_means", NpyArray::of({N, 3}, flat(D.Means, 3))},
+               {"f64_g_scales", NpyArray::of({N, 3}, flat(D.Scales, 3))},
+               {"f64_g_quats", NpyArray::of({N, 4}, storedQuats(Stored, D))},
+               {"f64_g_opacities", NpyArray::of({N}, D.Opacities)}};
+  // Direct colours are a scene's constant harmonic: h_dc is their gradient.
+  if (G.Colors.empty())
+    E["f64_g_colors"] = NpyArray::of({N, D.Sh.size() / N, 3}, flat(D.Sh, 3));
+  return E;
+}
+
+/// Adds `norm_NAME` and `limit_NAME`. \p OwnError: of an array, by its name and
+/// what it is relative to.
+template <typename Function>
+void judge(splat::Npz &E, double LogScaleNorm, Function OwnError) {
+  splat::Npz Judged;
+  for (const auto &[Name, Array] : E) {
+    const double Scale =
+        Name == "f64_g_quats" ? ShareOfScales * LogScaleNorm : 0;
+    Judged["norm_" + Name] = NpyArray::of(
+        {}, std::vector<double>{std::max(norm(Array.toDoubles()), Scale)});
+    Judged["limit_" + Name] =
+        NpyArray::of({}, std::vector<double>{2 * OwnError(Name, Scale)});
+  }
+  E.merge(Judged);
+}
+
 } // namespace
 
 double norm(const std::vector<double> &V) {
@@ -108,41 +158,31 @@ reference::Upstream upstreamOf(const Fixture &F) {
 GradientFiles gradientsOf(const Fixture &F,
                           const std::vector<uint8_t> &Doubts) {
   reference::Upstream U = upstreamOf(F);
-  for (std::size_t I = 0; I < Doubts.size(); ++I)
-    if (Doubts[I]) {
-      U.Render[I] = glm::dvec3(0);
-      U.Alpha[I] = 0;
-    }
-  GradientFiles Files;
-  const auto H = static_cast<std::size_t>(F.Camera.Height);
-  const auto W = static_cast<std::size_t>(F.Camera.Width);
-  Files.Upstream = {{"in_v_render", NpyArray::of({H, W, 3}, flat(U.Render, 3))},
-                    {"in_v_alpha", NpyArray::of({H, W}, U.Alpha)}};
-
+  leaveOut(U, Doubts);
   const auto D = reference::renderBackward(F.Gaussians, F.Camera, U, F.Options);
-  const std::size_t N = F.Gaussians.size();
+  GradientFiles Files{arraysOf(U, F.Camera),
+                      arraysOf(D, F.Gaussians, F.doubles("in_quats"))};
   splat::Npz &E = Files.Expected;
-  E = {{"f64_g_means2d", NpyArray::of({N, 2}, flat(D.Means2d, 2))},
-       {"f64_g_conics", NpyArray::of({N, 3}, flat(D.Conics, 3))},
-       {"f64_g_means", NpyArray::of({N, 3}, flat(D.Means, 3))},
-       {"f64_g_scales", NpyArray::of({N, 3}, flat(D.Scales, 3))},
-       {"f64_g_quats", NpyArray::of({N, 4}, storedQuats(F, D))},
-       {"f64_g_opacities", NpyArray::of({N}, D.Opacities)}};
-  // Direct colours are a scene's constant harmonic: h_dc is their gradient.
-  if (F.Gaussians.Colors.empty())
-    E["f64_g_colors"] = NpyArray::of({N, D.Sh.size() / N, 3}, flat(D.Sh, 3));
+  E["f64_g_conics"] = NpyArray::of({F.Gaussians.size(), 3}, flat(D.Conics, 3));
   addSums(E, D.Sums);
-  splat::Npz Judged;
-  for (const auto &[Name, Array] : E) {
-    const double Scale =
-        Name == "f64_g_quats" ? ShareOfScales * logScaleNorm(F, D) : 0;
-    const std::string Like = gradientLike(Name.substr(4));
-    Judged["norm_" + Name] = NpyArray::of(
-        {}, std::vector<double>{std::max(norm(Array.toDoubles()), Scale)});
-    Judged["limit_" + Name] =
-        NpyArray::of({}, std::vector<double>{2 * ownError(F, Like, Scale)});
-  }
-  E.merge(Judged);
+  judge(E, logScaleNorm(F.Gaussians, D),
+        [&](const std::string &Name, double Scale) {
+          return ownError(F, gradientLike(Name.substr(4)), Scale);
+        });
+  return Files;
+}
+
+GradientFiles gradientsAlongRays(const splat::Scene &S,
+                                 const reference::Camera<double> &C,
+                                 const reference::Options &O,
+                                 reference::Upstream U) {
+  const auto G = splat::toReference<double>(S);
+  leaveOut(U, reference::renderAlongRays(G, C, O).Doubts);
+  const auto D = reference::alongRaysBackward(G, C, U, O);
+  GradientFiles Files{arraysOf(U, C),
+                      arraysOf(D, G, {S.Quats.begin(), S.Quats.end()})};
+  judge(Files.Expected, logScaleNorm(G, D),
+        [](const std::string &, double) { return 0.; });
   return Files;
 }
 

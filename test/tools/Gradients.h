@@ -4,6 +4,7 @@
 
 #include "Fixture.h"
 #include "reference/Backward.h"
+#include "scene/Scene.h"
 
 #include <string>
 
@@ -24,6 +25,13 @@ struct GradientFiles {
 
 /// Both without the pixels that are doubtful in \p Doubts.
 GradientFiles gradientsOf(const Fixture &F, const std::vector<uint8_t> &Doubts);
+
+/// The same of a view of \p S along rays, with the pixels' gradients \p U,
+/// whose doubtful pixels become 0.
+GradientFiles gradientsAlongRays(const splat::Scene &S,
+                                 const reference::Camera<double> &C,
+                                 const reference::Options &O,
+                                 reference::Upstream U);
 
 /// sqrt of the sum of squares, NaNs left out.
 double norm(const std::vector<double> &V);

@@ -1,6 +1,7 @@
 // splat-reference: renders one view of a scene with the reference.
 
 #include "Convert.h"
+#include "Gradients.h"
 #include "Tool.h"
 #include "io/Npz.h"
 #include "mesh/Mesh.h"
@@ -24,6 +25,7 @@ struct Arguments {
   std::string Rules = "inria", Support = "exact", Precision = "f64";
   std::string Projection = "jacobian", Order = "depth";
   std::string Mesh, Visible;
+  std::string Upstream, Gradients;
   std::vector<double> Light; ///< empty: none
   std::vector<float> Background{0, 0, 0};
   bool AlongRays = false;
@@ -116,6 +118,29 @@ surfaceOf(const Arguments &A, const reference::Camera<double> &C,
   return reference::surfaceOf(M, C, *Seen);
 }
 
+/// Writes what splat gradients is given and judged by.
+Expected<Success> writeGradients(const Arguments &A, const splat::Scene &S,
+                                 const reference::Camera<double> &C,
+                                 const reference::Options &O) {
+  auto Given = splat::readNpz(A.Upstream);
+  if (!Given)
+    return Given.error();
+  const auto Render = (*Given)["in_v_render"].toDoubles();
+  reference::Upstream U;
+  for (std::size_t I = 0; I + 2 < Render.size(); I += 3)
+    U.Render.emplace_back(Render[I], Render[I + 1], Render[I + 2]);
+  U.Alpha = (*Given)["in_v_alpha"].toDoubles();
+  if (U.Render.size() != static_cast<std::size_t>(C.Width) *
+                             static_cast<std::size_t>(C.Height) ||
+      U.Alpha.size() != U.Render.size())
+    return Error{A.Upstream, fmt::format("no in_v_render and in_v_alpha of {} "
+                                         "x {} pixels, expected these",
+                                         C.Width, C.Height)};
+  GradientFiles Files = gradientsAlongRays(S, C, O, std::move(U));
+  Files.Expected.merge(Files.Upstream);
+  return splat::writeNpz(A.Gradients, Files.Expected);
+}
+
 template <typename Real>
 Expected<Success> run(const Arguments &A, const splat::Scene &S,
                       const splat::Camera &View) {
@@ -133,6 +158,9 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
       Behind = std::move(*Made);
       P = reference::blend(Splats, C.Width, C.Height, O, &*Behind);
     }
+    if (!A.Gradients.empty())
+      if (auto Written = writeGradients(A, S, C, O); !Written)
+        return Written;
     if (A.AlongRays)
       P = reference::renderAlongRays(splat::toReference<Real>(S), C, O,
                                      A.Order == "pose"
@@ -208,6 +236,11 @@ Expected<Success> run(Arguments &A) {
                  "--along-rays is for --precision f64 without footprints, "
                  "expected no --support, --projection or --order ray",
                  ExitCode::Usage};
+  if (A.Gradients.empty() != A.Upstream.empty() ||
+      (!A.Gradients.empty() && !A.AlongRays))
+    return Error{
+        "", "--upstream and --gradients are for --along-rays, expected all",
+        ExitCode::Usage};
   if (A.Order == "pose" && !A.AlongRays)
     return Error{"", "--order pose is for --along-rays, expected it too",
                  ExitCode::Usage};
@@ -225,6 +258,12 @@ Expected<Success> run(Arguments &A) {
     return File.error();
   A.Options.Antialiased = File->DrawnAs.Antialiased;
   A.Options.Dilation = File->DrawnAs.Dilation.value_or(A.Options.Dilation);
+  if (!A.Gradients.empty() &&
+      (A.Options.Dilation != 0 || A.Options.Antialiased))
+    return Error{"",
+                 "--gradients are of rays without dilation, expected "
+                 "--dilation 0",
+                 ExitCode::Usage};
   const auto View = splat::readCamera(A.Cameras, A.View);
   if (!View)
     return View.error();
@@ -284,6 +323,12 @@ int main(int Count, char **Values) {
                "With f64: evaluate each Gaussian at its maximum density along "
                "the pixel's ray, from the camera's position at the pixel's "
                "exposure, in place of a projected footprint");
+  App.add_option("--upstream", A.Upstream,
+                 "With --along-rays: gradients of a loss, as for splat "
+                 "gradients");
+  App.add_option("--gradients", A.Gradients,
+                 "With --upstream: gradients of the scene, as splat-fixture "
+                 "writes them, and those of the loss without doubtful pixels");
   App.add_option("--near", A.Options.Near, "Near plane (0: that of the rules)")
       ->capture_default_str();
   App.add_option("--rules", A.Rules, "Convention to follow")

@@ -45,7 +45,8 @@ struct EvalArguments : DrawArguments {
 /// What can be said to be wrong before anything is read.
 Expected<Success> check(const EvalArguments &A) {
   for (const auto &Checked :
-       {checkDrawOptions(A.Options), checkJsonName(A.Json),
+       {checkDrawOptions(A.Options),
+        checkRenderer(A.Options, A.Scene.Options.Drawn), checkJsonName(A.Json),
         checkEnding("--csv", A.Csv, {".csv"}), checkPage(A.Page)})
     if (!Checked)
       return Checked;
@@ -90,6 +91,7 @@ reportOf(const EvalArguments &A, const SceneFile &File, const Capture &C,
                  {"rules", name(A.Options.Convention)},
                  {"support", name(A.Options.Reach)},
                  {"path", name(A.Options.Blending)},
+                 {"renderer", name(A.Options.Kind)},
                  {"antialiased", A.Options.Antialiased},
                  {"dilation", A.Options.Dilation},
                  {"background", A.Options.Background},
@@ -144,6 +146,8 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
     Cameras.push_back(V.View->Pose);
   if (auto Through = drawThrough(A.Options, A.Capture, Cameras); !Through)
     return Through;
+  if (auto Checked = checkRays(A.Options, A.Capture); !Checked)
+    return Checked;
   recentre(File->Gaussians, Cameras);
   const ViewFacts Facts = factsOfAll(File->Gaussians, Cameras, A.Options);
   hintAtNear(A.Options, Facts);
@@ -229,6 +233,7 @@ Runner addEval(CLI::App &App) {
   addPageOptions(App, A->Page,
                  "Write a page with these pictures and their scores");
   addDrawOptions(App, *A);
+  addRendererOption(App, A->Options.Kind);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {

@@ -25,6 +25,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 namespace vorion::splat {
 
@@ -79,7 +80,7 @@ Expected<PixelGradients> readUpstream(const std::string &File,
 }
 
 /// Under the names of the reference results, whose fp32 arrays are "f32_".
-Npz arraysOf(const GradientResult &R, const Scene &S) {
+Npz arraysOf(const GradientResult &R, const Scene &S, RendererKind Kind) {
   const SceneGradients &G = R.Gradients;
   const std::size_t N = S.size();
   const auto W = static_cast<std::size_t>(R.Picture.Width);
@@ -87,7 +88,6 @@ Npz arraysOf(const GradientResult &R, const Scene &S) {
   Npz Out{{"f32_render", NpyArray::of({H, W, 3}, R.Picture.Render)},
           {"f32_alpha", NpyArray::of({H, W}, R.Picture.Alpha)},
           {"f32_g_means2d", NpyArray::of({N, 2}, G.Means2d)},
-          {"f32_g_conics", NpyArray::of({N, 3}, G.Conics)},
           {"f32_g_means", NpyArray::of({N, 3}, G.Means)},
           {"f32_g_quats", NpyArray::of({N, 4}, G.Quats)},
           {"f32_g_scales", NpyArray::of({N, 3}, G.Scales)},
@@ -97,15 +97,23 @@ Npz arraysOf(const GradientResult &R, const Scene &S) {
     const auto Begin = G.Sums.begin() + static_cast<std::ptrdiff_t>(P * N);
     return std::vector<float>(Begin, Begin + static_cast<std::ptrdiff_t>(N));
   };
+  if (Kind == RendererKind::Splat)
+    Out["f32_g_conics"] = NpyArray::of({N, 3}, G.Conics);
   std::vector<float> Colors(3 * N);
   for (std::size_t I = 0; I < N; ++I)
     for (std::size_t K = 0; K < 3; ++K)
       Colors[3 * I + K] = G.Sums[K * N + I];
   Out["f32_h_dc"] = NpyArray::of({N, 3}, Colors);
-  constexpr const char *Moments[] = {"f32_h_s",    "f32_h_sdx",  "f32_h_sdy",
-                                     "f32_h_sdxx", "f32_h_sdxy", "f32_h_sdyy"};
-  for (std::size_t M = 0; M < std::size(Moments); ++M)
-    Out[Moments[M]] = NpyArray::of({N}, Plane(SUM_S + M));
+  static constexpr const char *OfFootprints[] = {"s",    "sdx",  "sdy",
+                                                 "sdxx", "sdxy", "sdyy"};
+  static constexpr const char *OfRays[] = {"s",   "su",  "sv",  "suu", "suv",
+                                           "svv", "suq", "svq", "sqq"};
+  const auto Moments = Kind == RendererKind::Ray
+                           ? std::span<const char *const>(OfRays)
+                           : std::span<const char *const>(OfFootprints);
+  for (std::size_t M = 0; M < Moments.size(); ++M)
+    Out[fmt::format("f32_h_{}", Moments[M])] =
+        NpyArray::of({N}, Plane(SUM_S + M));
   return Out;
 }
 
@@ -122,10 +130,10 @@ Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
 }
 
 Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
-  if (auto Checked = checkGradientOptions(A.Options, A.Backward); !Checked)
-    return Checked;
   for (const auto &Checked :
-       {checkEnding("-o", A.Output, {".npz"}), checkJsonName(A.Json)})
+       {checkGradientOptions(A.Options, A.Backward),
+        checkRenderer(A.Options, A.Scene.Options.Drawn),
+        checkEnding("-o", A.Output, {".npz"}), checkJsonName(A.Json)})
     if (!Checked)
       return Checked;
   if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--json", A.Json}},
@@ -151,6 +159,8 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   prepareToDraw(File->Gaussians, *All, A.Options.Convention, A.Options.Near);
   A.Options.Optics = C.Optics.Model;
   A.Options.Rolling = C.Optics.Shutter.has_value();
+  if (auto Checked = checkRays(A.Options, A.Cameras); !Checked)
+    return Checked;
   const auto U = readUpstream(A.Upstream, C);
   if (!U)
     return U.error();
@@ -167,7 +177,8 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
     showBuildLog(L);
     return R.error();
   }
-  if (auto Written = writeNpz(A.Output, arraysOf(*R, File->Gaussians));
+  if (auto Written =
+          writeNpz(A.Output, arraysOf(*R, File->Gaussians, A.Options.Kind));
       !Written)
     return Written.error();
   if (!A.Json.empty())
@@ -221,6 +232,7 @@ Runner addGradients(CLI::App &App) {
                "Report the modelled time of the forward and backward pass "
                "(docs/model.md)");
   addGradientOptions(App, A->Options, A->Backward);
+  addRendererOption(App, A->Options.Kind);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {

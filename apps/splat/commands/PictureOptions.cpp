@@ -327,8 +327,52 @@ void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B) {
   addBackwardOptions(App, B);
 }
 
+void addRendererOption(CLI::App &App, RendererKind &Kind) {
+  const HelpGroup Group(App, "Picture");
+  addChoice(App, "--renderer", Kind, {RendererKind::Splat, RendererKind::Ray},
+            "Evaluation of a Gaussian: as a footprint on the picture, or where "
+            "it is densest on each pixel's ray (docs/cameras.md)");
+}
+
+Expected<Success> excludedByRays(std::string_view Option) {
+  return usage(fmt::format("--renderer ray excludes {}, expected --renderer "
+                           "splat",
+                           Option));
+}
+
+Expected<Success> checkRenderer(const RenderOptions &O,
+                                const DrawingRequest &Drawn) {
+  if (O.Kind == RendererKind::Splat)
+    return Success{};
+  for (const auto &[Is, Option] :
+       {std::pair{O.Reach != Support::Exact, "--support"},
+        {O.Through != Spread::Jacobian, "--projection"},
+        {O.Order != PixelOrder::Depth, "--order"},
+        {Drawn.Antialiased.value_or(false), "--antialiased"},
+        {Drawn.Dilation.has_value(), "--dilation"},
+        {O.CullBlocks, "--cull-blocks"},
+        {O.PixelUnit.any(), "--pixel-unit"}})
+    if (Is)
+      return excludedByRays(Option);
+  return Success{};
+}
+
+Expected<Success> checkRays(const RenderOptions &O,
+                            const std::string &Cameras) {
+  if (O.Kind == RendererKind::Splat ||
+      ((O.Optics->isPinhole() || O.Optics->IsParallel) && !O.Rolling))
+    return Success{};
+  return Error{Cameras,
+               fmt::format("--renderer ray: a camera of model {}{}, expected a "
+                           "pinhole or parallel rays",
+                           O.Optics->Name,
+                           O.Rolling ? " with a rolling shutter" : "")};
+}
+
 Expected<Success> checkGradientOptions(const RenderOptions &O,
                                        const BackwardOptions &B) {
+  if (O.Kind == RendererKind::Ray && B.Pixels != SimtSums::Ordered)
+    return excludedByRays("--simt-sums");
   for (const auto &Checked : {checkPictureOptions(O),
                               checkTilesBack(O.Blending, O.Tile, O.SimtGroup)})
     if (!Checked)

@@ -6,6 +6,7 @@
 #include "io/Cameras.h"
 #include "picture/Options.h"
 #include "render/Backward.h"
+#include "scene/Drawing.h"
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>
@@ -98,6 +99,19 @@ void addBackwardOptions(CLI::App &App, BackwardOptions &B);
 
 /// Checks the values for the path \p Blending; an error is a usage error.
 Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
+
+/// Declares --renderer.
+void addRendererOption(CLI::App &App, RendererKind &Kind);
+
+/// The usage error that \p Option is of footprints.
+Expected<Success> excludedByRays(std::string_view Option);
+
+/// Refuses options that only footprints have.
+Expected<Success> checkRenderer(const RenderOptions &O,
+                                const DrawingRequest &Drawn);
+
+/// Refuses cameras of file \p Cameras whose rays are not affine in the pixel.
+Expected<Success> checkRays(const RenderOptions &O, const std::string &Cameras);
 
 /// Declares all options of the gradients of a view; \p O is then set for
 /// training.

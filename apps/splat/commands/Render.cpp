@@ -124,40 +124,11 @@ Expected<Success> checkVideo(const RenderArguments &A) {
 
 /// Refuses options that only footprints have.
 Expected<Success> checkRenderer(const RenderArguments &A) {
-  const RenderOptions &O = A.Options;
-  if (O.Kind == RendererKind::Splat)
-    return Success{};
-  const DrawingRequest &Drawn = A.Scene.Options.Drawn;
-  for (const auto &[Is, Option] :
-       {std::pair{O.Reach != Support::Exact, "--support"},
-        {O.Through != Spread::Jacobian, "--projection"},
-        {O.Order != PixelOrder::Depth, "--order"},
-        {Drawn.Antialiased.value_or(false), "--antialiased"},
-        {Drawn.Dilation.has_value(), "--dilation"},
-        {O.CullBlocks, "--cull-blocks"},
-        {O.PixelUnit.any(), "--pixel-unit"},
-        {!A.Numerics.empty(), "--numerics"},
-        {A.Layers.needLists(), "--contributors or --depth-as median"}})
-    if (Is)
-      return Error{"",
-                   fmt::format("--renderer ray excludes {}, expected "
-                               "--renderer splat",
-                               Option),
-                   ExitCode::Usage};
-  return Success{};
-}
-
-/// Refuses cameras whose rays are not affine in the pixel.
-Expected<Success> checkRays(const RenderArguments &A) {
-  const RenderOptions &O = A.Options;
-  if (O.Kind == RendererKind::Splat ||
-      ((O.Optics->isPinhole() || O.Optics->IsParallel) && !O.Rolling))
-    return Success{};
-  return Error{A.Cameras.File,
-               fmt::format("--renderer ray: a camera of model {}{}, expected a "
-                           "pinhole or parallel rays",
-                           O.Optics->Name,
-                           O.Rolling ? " with a rolling shutter" : "")};
+  if (A.Options.Kind == RendererKind::Ray && !A.Numerics.empty())
+    return excludedByRays("--numerics");
+  if (A.Options.Kind == RendererKind::Ray && A.Layers.needLists())
+    return excludedByRays("--contributors or --depth-as median");
+  return checkRenderer(A.Options, A.Scene.Options.Drawn);
 }
 
 /// The extensions of -o.
@@ -478,7 +449,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return Cameras.error();
   if (auto Through = drawThrough(A.Options, A.Cameras.File, *Cameras); !Through)
     return Through;
-  if (auto Checked = checkRays(A); !Checked)
+  if (auto Checked = checkRays(A.Options, A.Cameras.File); !Checked)
     return Checked;
   if (A.Options.Kind == RendererKind::Ray && !File->DrawnAs.Source.empty())
     printDiagnostic("splat", "note", A.Scene.Path,
@@ -636,10 +607,7 @@ Runner addRender(CLI::App &App) {
       "Write a page with the breakdown of the frame time (implies --time)");
   addDrawOptions(App, *A);
   Group.next("Picture");
-  addChoice(App, "--renderer", A->Options.Kind,
-            {RendererKind::Splat, RendererKind::Ray},
-            "Evaluation of a Gaussian: as a footprint on the picture, or where "
-            "it is densest on each pixel's ray (docs/cameras.md)");
+  addRendererOption(App, A->Options.Kind);
   Group.next("Accuracy and speed");
   App.add_flag("--overlap", A->Overlap,
                "With several pictures, overlap the preparation of one with the "

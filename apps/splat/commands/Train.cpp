@@ -109,6 +109,8 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
   if (R.Run.Through == Spread::Unscented)
     printOut("projection   unscented: eval and render need --projection "
              "unscented, too\n");
+  if (R.Run.Kind == RendererKind::Ray)
+    printOut("renderer     ray: eval and render need --renderer ray, too\n");
   if (Out.Near)
     printOut("near plane   at depth {:g}: render from other distances needs "
              "--near {:g}, too\n",

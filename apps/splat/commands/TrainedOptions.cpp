@@ -66,6 +66,7 @@ void addTrainedOptions(CLI::App &App, TrainedArguments &A) {
       "undistorting them");
   Group.next("Picture");
   addProjectionOption(App, R.Run.Through);
+  addRendererOption(App, R.Run.Kind);
   App.add_flag(
       "--antialiased", R.Run.Antialiased,
       "Compensate opacities for the dilation; the scene's file records this");
@@ -116,6 +117,17 @@ Expected<Success> checkTrained(const TrainRequest &R) {
   if (R.Run.Pictures == LensOf::Photograph && looksAtDepths(R.Run.Settings))
     return usage("--depth-weight: the depth loss needs undistorted pictures, "
                  "expected no --distorted");
+  if (R.Run.Kind == RendererKind::Ray)
+    for (const auto &[Is, Option] :
+         {std::pair{R.Run.Through != Spread::Jacobian, "--projection"},
+          {R.Run.Antialiased, "--antialiased"},
+          {R.Run.Pictures == LensOf::Photograph, "--distorted"},
+          {R.Run.Settings.AbsoluteGradient, "--absgrad"},
+          {looksAtDepths(R.Run.Settings), "--depth-weight"},
+          {arePosesOn(R.Run.Settings), "--pose-rate"},
+          {R.Backward.Pixels != SimtSums::Ordered, "--simt-sums"}})
+      if (Is)
+        return excludedByRays(Option);
   if (auto Checked = checkNear(R.Run.Near); !Checked)
     return Checked;
   for (const float V : R.Run.Background)

@@ -74,7 +74,12 @@
 #define GAUSSIAN(entry) ((entry) & (USE_INTERSECT_TAGS ? ~SPANS_TILES : ~0u))
 
 #if USE_RAYS
+#define RECORD_SPACE __local // ray_density.cl
 #include "ray_density.cl"
+
+static float power_at(__local const splat_record *g, float x, float y) {
+  return power_of(meet(g, x, y));
+}
 #else
 #define FROM_PIXEL(g, p, axis) ((g)->mean[axis] - (p))
 

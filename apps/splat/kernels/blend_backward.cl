@@ -18,11 +18,23 @@
 #define OWN (PIXELS / LANES)
 
 // One Gaussian in all pixels of this work-item: adds to `sum`.
-static void through(__global const splat_gaussian *g, uint entry, uint x0,
+static void through(__global const splat_record *g, uint entry, uint x0,
                     uint y0, __local const float4 *gradient,
                     __local float2 *state, __local const uint *last,
                     float *sum) {
   const uint lane = get_local_id(0);
+#if USE_RAYS
+  for (uint k = 0; k < OWN; ++k) {
+    const uint place = k * LANES + lane;
+    const float x = FROM_PIXEL(g, (float)(x0 + place % TILE_SIZE) + 0.5f, 0);
+    const float y = FROM_PIXEL(g, (float)(y0 + place / TILE_SIZE) + 0.5f, 1);
+    const ray_meeting at = meet(g, x, y);
+    const float power = power_of(at);
+    if ((last[place] > entry) & IN_BOX(g, x, y) & (power <= 0.0f) &
+        (power >= MIN_POWER))
+      pixel_backward(g, at, power, gradient + place, state + place, sum);
+  }
+#else
   const float mean_x = g->mean[0], mean_y = g->mean[1];
   const float a = g->conic[0], b = g->conic[1], c = g->conic[2];
   const float extent_x = g->extent[0], extent_y = g->extent[1];
@@ -33,12 +45,14 @@ static void through(__global const splat_gaussian *g, uint entry, uint x0,
     const float power = -0.5f * (a * dx * dx + c * dy * dy) - b * dx * dy;
     if ((last[place] > entry) & (fabs(dx) <= extent_x) &
         (fabs(dy) <= extent_y) & (power <= 0.0f) & (power >= MIN_POWER))
-      pixel_backward(g, dx, dy, power, gradient + place, state + place, sum);
+      pixel_backward(g, (float2)(dx, dy), power, gradient + place,
+                     state + place, sum);
   }
+#endif
 }
 
 __kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
-blend_backward(__global const splat_gaussian *records,
+blend_backward(__global const splat_record *records,
                __global const uint *list, __global const uint2 *ranges,
                __global const float4 *pixels, __global const uint *last,
                __global const float4 *upstream, __global const uint *places,
@@ -78,8 +92,7 @@ blend_backward(__global const splat_gaussian *records,
   while (left != 0) {
     const uint first = (left - 1) / LANES * LANES;
     for (uint entry = left; entry-- > first;) {
-      float sum[ALL_SUMS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
-                              0.0f, 0.0f, 0.0f, 0.0f};
+      float sum[ALL_SUMS] = {0.0f};
       through(tile.records + (list[range.x + entry] & ~SPANS_TILES), entry,
               tile.x, tile.y, gradient, state, entries, sum);
       for (uint k = 0; k < ALL_SUMS; ++k)

@@ -37,7 +37,7 @@ static bool in_pixel(bool listed, __local const splat_gaussian *g, float px,
   if (!listed | (fabs(dx) > g->extent[0]) | (fabs(dy) > g->extent[1]) |
       !((power <= 0.0f) & (power >= MIN_POWER)))
     return false;
-  return pixel_backward(g, dx, dy, power, gradient, state, sum);
+  return pixel_backward(g, (float2)(dx, dy), power, gradient, state, sum);
 }
 
 __kernel __attribute__((reqd_work_group_size(TILE_PIXELS, 1, 1))) void

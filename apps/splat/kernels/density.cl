@@ -7,6 +7,7 @@
 #include "axes.cl"
 #include "layout.h"
 #include "philox.h"
+#include "record.h"
 
 enum { FATE_DROP = 0, FATE_KEEP = 1, FATE_CLONE = 2, FATE_SPLIT = 3 };
 
@@ -15,11 +16,19 @@ static uint becomes(uint fate) {
 }
 
 // INRIA's radius of a projected Gaussian, px: three standard deviations along
-// its longest axis, rounded up. The covariance is the conic's inverse.
-static float screen_radius(splat_gaussian g) {
-  const float det = g.conic[0] * g.conic[2] - g.conic[1] * g.conic[1];
-  const float xx = g.conic[2] / det, yy = g.conic[0] / det;
-  const float xy = -g.conic[1] / det;
+// its longest axis, rounded up. The covariance is the conic's inverse; of rays
+// the conic is that of those near the mean.
+static float screen_radius(splat_record g) {
+#if USE_RAYS
+  const float a = g.factor[0], b = g.factor[1], c = g.factor[2];
+  const float3 conic = (float3)(a * a, a * b, b * b + c * c);
+  const float det = a * a * (c * c);
+#else
+  const float3 conic = (float3)(g.conic[0], g.conic[1], g.conic[2]);
+  const float det = conic.x * conic.z - conic.y * conic.y;
+#endif
+  const float xx = conic.z / det, yy = conic.x / det;
+  const float xy = -conic.y / det;
   const float half_difference = (xx - yy) / 2.0f;
   const float spread = half_difference * half_difference + xy * xy;
   return ceil(3.0f * sqrt((xx + yy) / 2.0f + sqrt(fmax(0.1f, spread))));
@@ -29,7 +38,7 @@ static float screen_radius(splat_gaussian g) {
 // loss's gradient by the projected mean in units of half the picture, how often
 // it was seen, and its largest radius. A radius that is no number stays out. The
 // gradients by x and y are planes of floats, the first at `plane`.
-__kernel void density_note(__global const splat_gaussian *records,
+__kernel void density_note(__global const splat_record *records,
                            __global const uint *depths,
                            __global const float *gradients, uint plane,
                            __global float *sums, __global uint *views,

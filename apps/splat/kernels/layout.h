@@ -231,7 +231,11 @@ enum {
   SUM_S = 3,
   SUM_SX = 4,  ///< and SUM_SX + 1: y
   SUM_SXX = 6, ///< then xy, yy
-  SUM_WORDS = 9
+  SUM_WORDS = 9,
+  /// Of rays the same places have the moments of U and V; then Uq, Vq, qq.
+  SUM_UQ = 9,
+  SUM_QQ = 11,
+  RAY_SUM_WORDS = 12
 };
 
 /// Planes of the gradients' buffer, as GEOMETRY_PLANES.

@@ -11,6 +11,10 @@
 
 #include "falloff.cl"
 #include "layout.h"
+#include "record.h"
+#if USE_RAYS
+#include "ray_density.cl"
+#endif
 
 #ifdef CLAMP_STOPS
 #define CLAMPED(wanted) ((wanted) > 0.99f)
@@ -21,17 +25,25 @@
 // For density control, also the sums of the absolute gradients by the mean (Ye
 // et al. 2024, "AbsGS"): what pulls both ways does not cancel.
 #ifdef ABSOLUTE_SUMS
-#define ALL_SUMS (SUM_WORDS + ABSOLUTE_SUMS)
+#define ALL_SUMS (RECORD_SUMS + ABSOLUTE_SUMS)
 #else
-#define ALL_SUMS SUM_WORDS
+#define ALL_SUMS RECORD_SUMS
 #endif
 
-// (dx, dy): from the pixel to the mean, px; `power`: the exponent there, in
-// falloff()'s domain. `gradient`: dL/d(the pixel); `state`: the transmittance
-// behind the Gaussian and the light from behind it, which become those in front.
-// Adds to `sum`. False where the pixel has nothing of the Gaussian.
-static bool pixel_backward(RECORD_SPACE const splat_gaussian *g, float dx,
-                           float dy, float power,
+// Where the Gaussian is seen from a pixel: where the pixel's ray meets it, or
+// (x, y) px from the pixel to the mean.
+#if USE_RAYS
+typedef ray_meeting pixel_offset;
+#else
+typedef float2 pixel_offset;
+#endif
+
+// `power`: the exponent there, in falloff()'s domain. `gradient`: dL/d(the
+// pixel); `state`: the transmittance behind the Gaussian and the light from
+// behind it, which become those in front. Adds to `sum`. False where the pixel
+// has nothing of the Gaussian.
+static bool pixel_backward(RECORD_SPACE const splat_record *g,
+                           pixel_offset at, float power,
                            __local const float4 *gradient,
                            __local float2 *state, float *sum) {
   const float wanted = g->opacity * falloff(power);
@@ -47,16 +59,27 @@ static bool pixel_backward(RECORD_SPACE const splat_gaussian *g, float dx,
   *state = (float2)(t, s.y + alpha * gain);
   const float weight = alpha * t;
   const float v = CLAMPED(wanted) ? 0.0f : wanted * (t * gain);
-  const float vx = v * -dx, vy = v * -dy;
+#if USE_RAYS
+  const float k = at.l / at.far;
+  const float x = at.u * k, y = at.v * k;
+#else
+  const float x = -at.x, y = -at.y;
+#endif
+  const float vx = v * x, vy = v * y;
   sum[SUM_COLOR] += weight * u.x;
   sum[SUM_COLOR + 1] += weight * u.y;
   sum[SUM_COLOR + 2] += weight * u.z;
   sum[SUM_S] += v;
   sum[SUM_SX] += vx;
   sum[SUM_SX + 1] += vy;
-  sum[SUM_SXX] += vx * -dx;
-  sum[SUM_SXX + 1] += vx * -dy;
-  sum[SUM_SXX + 2] += vy * -dy;
+  sum[SUM_SXX] += vx * x;
+  sum[SUM_SXX + 1] += vx * y;
+  sum[SUM_SXX + 2] += vy * y;
+#if USE_RAYS
+  sum[SUM_UQ] += vx * at.q;
+  sum[SUM_UQ + 1] += vy * at.q;
+  sum[SUM_QQ] += v * at.q * at.q;
+#endif
 #ifdef ABSOLUTE_SUMS
   sum[SUM_WORDS] += fabs(g->conic[0] * vx + g->conic[1] * vy);
   sum[SUM_WORDS + 1] += fabs(g->conic[1] * vx + g->conic[2] * vy);

@@ -13,6 +13,7 @@
 #include "covariance.cl"
 #include "layout.h"
 #include "planes.h"
+#include "record.h"
 #include "sh_backward.cl"
 #ifdef POSES
 #include "pose.h"
@@ -26,6 +27,9 @@
 #endif
 #if USE_NEEDLES
 #include "across.cl"
+#endif
+#if USE_RAYS
+#include "rays_backward.cl"
 #endif
 
 // Of the parameters as they are stored, or of activated scales and opacities.
@@ -212,12 +216,13 @@ static shape_gradients jacobian_backward(__constant const splat_view *view,
 static void project_backward_one(__constant const splat_view *view,
                                  __global const float *geometry,
                                  __global const float *sh,
-                                 const splat_gaussian record, float z,
+                                 const splat_record record, float z,
                                  __global const uint *depths,
                                  __global const float *sums,
                                  __global float *gradients,
                                  __global float *sh_gradients, uint count,
                                  uint i) {
+#if !USE_RAYS
   const float3 conic =
       (float3)(record.conic[0], record.conic[1], record.conic[2]);
   const float sx = SUM(SUM_SX), sy = SUM(SUM_SX + 1);
@@ -230,6 +235,7 @@ static void project_backward_one(__constant const splat_view *view,
   GRADIENT(GRADIENT_CONIC) = by_conic.x;
   GRADIENT(GRADIENT_CONIC + 1) = by_conic.y;
   GRADIENT(GRADIENT_CONIC + 2) = by_conic.z;
+#endif
 
   const float3 mean = (float3)(GEOMETRY(PLANE_MEAN), GEOMETRY(PLANE_MEAN + 1),
                                GEOMETRY(PLANE_MEAN + 2));
@@ -258,17 +264,37 @@ static void project_backward_one(__constant const splat_view *view,
     g.seen = to_camera(view, axes_across(view, mean, stored));
 #endif
   // Never 0 where something was blended.
+  const float by_opacity =
+      SUM(SUM_S) == 0.0f ? 0.0f : SUM(SUM_S) / record.opacity;
+#if USE_RAYS
+  const ray_sums sum = {SUM(SUM_SX),      SUM(SUM_SX + 1),  SUM(SUM_SXX),
+                        SUM(SUM_SXX + 1), SUM(SUM_SXX + 2), SUM(SUM_UQ),
+                        SUM(SUM_UQ + 1),  SUM(SUM_QQ)};
+  shape_gradients to = rays_backward(view, &g, record.near, &sum);
+  to.opacity = by_opacity;
+  // A step of the mean that is a pixel on the picture.
+#if LENS_IS_PARALLEL
+  const float step = 1.0f;
+#else
+  const float step = z;
+#endif
+  GRADIENT(GRADIENT_MEAN_2D) = to.place.x * (step / view->focal[0]);
+  GRADIENT(GRADIENT_MEAN_2D + 1) = to.place.y * (step / view->focal[1]);
+  for (uint plane = 0; plane < 3; ++plane)
+    GRADIENT(GRADIENT_CONIC + plane) = 0.0f;
+#else
   const splat_gradients by = {
       conic,
       {by_conic.x, 0.5f * by_conic.y, by_conic.z},
       by_mean2d,
-      SUM(SUM_S) == 0.0f ? 0.0f : SUM(SUM_S) / record.opacity};
+      by_opacity};
 
   shape_gradients to;
 #if USE_UNSCENTED
   if (!unscented_backward(view, &g, &by, &to))
 #endif
     to = jacobian_backward(view, &g, &by);
+#endif
 
   GRADIENT(GRADIENT_OPACITY) = BY_OPACITY(to.opacity, g.activated.w);
   GRADIENT(GRADIENT_SCALE) = BY_SCALE(to.scale.x, g.activated.x);
@@ -312,7 +338,7 @@ static void project_backward_one(__constant const splat_view *view,
 __kernel void project_backward(__constant const splat_view *view,
                                __global const float *geometry,
                                __global const float *sh,
-                               __global const splat_gaussian *records,
+                               __global const splat_record *records,
                                __global const uint *depths,
                                __global const float *sums,
                                __global float *gradients,

@@ -4,13 +4,20 @@
 
 #include "deal.cl"
 #include "layout.h"
+#include "record.h"
 #include "tile.h"
 #include "window.h"
 
 #include <vorion_raster.h>
 
+#if USE_RAYS
+#define START_BACKWARD vx_raster_rays_backward
+#else
+#define START_BACKWARD vx_raster_backward
+#endif
+
 typedef struct {
-  __global const splat_gaussian *records;
+  __global const splat_record *records;
   uint list, pixels, last, upstream; // addresses
   uint backward;                     // vr_backward
   splat_blend_options o;
@@ -24,20 +31,20 @@ static void start_tile(const backward_commands *c, uint tile, uint2 range) {
 #if USE_WINDOWS
   vr_gaussians_set((uint)at.records);
 #endif
-  vx_raster_backward(c->list + range.x * (uint)sizeof(uint), range.y - range.x,
-                     at.x, at.y, min((uint)TILE_SIZE, c->o.size[0] - x),
-                     min((uint)TILE_HEIGHT, c->o.size[1] - y),
-                     c->pixels + first * (uint)sizeof(float4),
-                     c->last + first * (uint)sizeof(uint),
-                     c->upstream + first * (uint)sizeof(float4), c->backward);
+  START_BACKWARD(c->list + range.x * (uint)sizeof(uint), range.y - range.x,
+                 at.x, at.y, min((uint)TILE_SIZE, c->o.size[0] - x),
+                 min((uint)TILE_HEIGHT, c->o.size[1] - y),
+                 c->pixels + first * (uint)sizeof(float4),
+                 c->last + first * (uint)sizeof(uint),
+                 c->upstream + first * (uint)sizeof(float4), c->backward);
 }
 
 // Entries from `begin` on are behind everything that is seen.
 static void store_nothing(__global const uint *places, __global float *sums,
                           uint begin, uint end) {
   for (uint slot = begin + get_local_id(0); slot < end; slot += VR_GRAD_LANES) {
-    __global float *to = sums + places[slot] * SUM_WORDS;
-    for (uint k = 0; k < SUM_WORDS; ++k)
+    __global float *to = sums + places[slot] * RECORD_SUMS;
+    for (uint k = 0; k < RECORD_SUMS; ++k)
       to[k] = 0.0f;
   }
 }
@@ -53,6 +60,12 @@ static void store_lane(__global float *to) {
   to[SUM_SXX] = as_float(vr_grad_sxx());
   to[SUM_SXX + 1] = as_float(vr_grad_sxy());
   to[SUM_SXX + 2] = as_float(vr_grad_syy());
+#if USE_RAYS
+  for (uint k = SUM_UQ; k < RECORD_SUMS; ++k) {
+    vr_index_set(1 + k); // behind the tag
+    to[k] = as_float(vr_item());
+  }
+#endif
 }
 
 static void take_tile(uint2 range, __global const uint *places,
@@ -65,7 +78,7 @@ static void take_tile(uint2 range, __global const uint *places,
         range.x + VR_GRAD_LANES * (next >> VR_GRAD_NEXT_BATCH_SHIFT);
     store_nothing(places, sums, begin + count, end);
     if (lane < count)
-      store_lane(sums + places[begin + lane] * SUM_WORDS);
+      store_lane(sums + places[begin + lane] * RECORD_SUMS);
     end = begin;
   }
   store_nothing(places, sums, range.x, end);
@@ -74,7 +87,7 @@ static void take_tile(uint2 range, __global const uint *places,
 // A tile is started before what the one before it hands over is taken, so that
 // the rasterizer always has a next one.
 __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
-rasterize_backward(__global const splat_gaussian *records,
+rasterize_backward(__global const splat_record *records,
                    __global const uint *list, __global const uint2 *ranges,
                    __global const uint *tile_order,
                    __global const float4 *pixels, __global const uint *last,

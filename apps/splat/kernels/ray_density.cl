@@ -1,5 +1,5 @@
 // A Gaussian's density where it is densest on a pixel's ray, by the order of
-// operations that docs/abi.md gives.
+// operations that docs/abi.md gives. RECORD_SPACE: where the Gaussian lies.
 #pragma once
 
 #include "record.h"
@@ -14,15 +14,29 @@
    ((x) <= (float)(((g)->last & 0xffff) - ((g)->first & 0xffff))) &            \
    ((y) <= (float)(((g)->last >> 16) - ((g)->first >> 16))))
 
-// The exponent at pixel (x, y) of the box; no number where the ray has the
-// Gaussian behind it.
-static float power_at(__local const splat_record *g, float x, float y) {
+// Where a ray meets a Gaussian.
+typedef struct {
+  float u, v, l;
+  float far; // what the square of the distance is divided by
+  float q;
+} ray_meeting;
+
+// At pixel (x, y) of the box.
+static ray_meeting meet(RECORD_SPACE const splat_record *g, float x, float y) {
   const float dx = x - g->mean[0];
   const float dy = y - g->mean[1];
-  const float u = g->factor[0] * dx + g->factor[1] * dy;
-  const float v = g->factor[2] * dy;
-  const float beside = u * u + v * v;
-  const float l = (1.0f + g->slope[0] * dx) + g->slope[1] * dy;
-  const float power = -0.5f * (beside / (l * l + g->near * beside));
-  return l > 0.0f ? power : NAN;
+  ray_meeting m;
+  m.u = g->factor[0] * dx + g->factor[1] * dy;
+  m.v = g->factor[2] * dy;
+  const float beside = m.u * m.u + m.v * m.v;
+  m.l = (1.0f + g->slope[0] * dx) + g->slope[1] * dy;
+  m.far = m.l * m.l + g->near * beside;
+  m.q = beside / m.far;
+  return m;
+}
+
+// The exponent there; no number where the ray has the Gaussian behind it.
+static float power_of(ray_meeting m) {
+  const float power = -0.5f * m.q;
+  return m.l > 0.0f ? power : NAN;
 }

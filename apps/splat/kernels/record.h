@@ -9,8 +9,10 @@
 
 #if USE_RAYS
 typedef splat_ray_gaussian splat_record;
+#define RECORD_SUMS RAY_SUM_WORDS
 #else
 typedef splat_gaussian splat_record;
+#define RECORD_SUMS SUM_WORDS
 #endif
 
 #define RECORD_WORDS (sizeof(splat_record) / 4)

@@ -7,11 +7,12 @@
 
 #include "activate.cl"
 #include "layout.h"
+#include "record.h"
 
 #ifdef ABSOLUTE_SUMS
-#define ALL_SUMS (SUM_WORDS + ABSOLUTE_SUMS)
+#define ALL_SUMS (RECORD_SUMS + ABSOLUTE_SUMS)
 #else
-#define ALL_SUMS SUM_WORDS
+#define ALL_SUMS RECORD_SUMS
 #endif
 
 __kernel void reduce_sums(__global const float *pair_sums,

@@ -30,8 +30,11 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
       .USE_MESH = O.Surface ? On : EffectSwitch::absent()}};
   const std::optional<cl_uint> AbsoluteSums =
       B.AbsoluteSums ? std::optional(2U) : std::nullopt;
+  const EffectSwitch Rays =
+      O.Kind == RendererKind::Ray ? On : EffectSwitch::absent();
   const auto AddBlending = [&](auto Program) {
     choose(Program, O);
+    Program.USE_RAYS = Rays;
     if (B.Windows)
       Program.USE_WINDOWS = On;
     if constexpr (requires { Program.ABSOLUTE_SUMS; })
@@ -45,11 +48,13 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   else
     AddBlending(kernels::blend_backward_atomics::Program{
         .WARP_SUMS = B.Pixels == SimtSums::Warp});
-  Programs.push_back(kernels::reduce::Program{.ABSOLUTE_SUMS = AbsoluteSums});
+  Programs.push_back(kernels::reduce::Program{.ABSOLUTE_SUMS = AbsoluteSums,
+                                              .USE_RAYS = Rays});
   kernels::project_backward::Program Project{
       .SH_DEGREE = static_cast<cl_uint>(ShDegree),
       .STORED_PARAMETERS = B.Parameters == GradientsOf::Stored,
-      .POSES = B.Poses};
+      .POSES = B.Poses,
+      .USE_RAYS = Rays};
   choose(Project, O);
   if (const Effect *Lens = effects::lensOf(*O.Optics))
     compile(Project, *Lens);
@@ -165,7 +170,7 @@ cl::Buffer BackwardPipeline::sumsOf(Pipeline &Forward, const Frame &F,
 
 cl::Buffer BackwardPipeline::sumsByAtomics(const Frame &F,
                                            const cl::Buffer &By) {
-  const uint32_t Words = Choice.sums() * F.drawn();
+  const uint32_t Words = Choice.sums(Options.Kind) * F.drawn();
   cl::Buffer Found = Launch.allocate("Gaussians' sums", 4 * uint64_t{Words});
   Launch.run(itemsFor(Words), GroupSize,
              kernels::blend_backward_atomics::clear_sums{.sums = Found,
@@ -189,8 +194,8 @@ cl::Buffer BackwardPipeline::sumsByAtomics(const Frame &F,
 
 void BackwardPipeline::blend(Pipeline &Forward, const Frame &F,
                              const cl::Buffer &By) {
-  PairSums =
-      Launch.allocate("pairs' sums", 4 * Choice.sums() * uint64_t{F.Pairs});
+  PairSums = Launch.allocate("pairs' sums",
+                             4 * Choice.sums(Options.Kind) * uint64_t{F.Pairs});
   if (Options.Blending == Path::Simt) {
     Launch.run(
         cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
@@ -233,8 +238,8 @@ void BackwardPipeline::blend(Pipeline &Forward, const Frame &F,
 
 cl::Buffer BackwardPipeline::reduce(const Frame &F) {
   const uint32_t Count = F.drawn();
-  cl::Buffer Found =
-      Launch.allocate("Gaussians' sums", 4 * Choice.sums() * uint64_t{Count});
+  cl::Buffer Found = Launch.allocate(
+      "Gaussians' sums", 4 * Choice.sums(Options.Kind) * uint64_t{Count});
   Launch.run(itemsFor(F.Visible), GroupSize,
              kernels::reduce::reduce_sums{.pair_sums = PairSums,
                                           .order = F.Order,

@@ -36,6 +36,11 @@ constexpr std::string_view name(SimtSums S) {
   return {};
 }
 
+/// The sums that \c BackwardPipeline::sums() has at least.
+constexpr uint32_t recordSums(RendererKind Of) {
+  return Of == RendererKind::Ray ? RAY_SUM_WORDS : SUM_WORDS;
+}
+
 /// The parameters of the gradients: activated scales and opacities, or the
 /// stored logarithms and logits.
 enum class GradientsOf { Activated, Stored };
@@ -56,7 +61,10 @@ struct BackwardOptions {
   /// Whether \c gradients() also has the planes of kernels/pose.h.
   bool Poses = false;
 
-  uint32_t sums() const { return SUM_WORDS + (AbsoluteSums ? 2U : 0U); }
+  /// What blending gives back of a Gaussian.
+  uint32_t sums(RendererKind Of) const {
+    return recordSums(Of) + (AbsoluteSums ? 2U : 0U);
+  }
 };
 
 /// The programs of the backward pass in addition to those of \c planRender.
@@ -94,7 +102,7 @@ public:
 
   /// \name Results, planes of as many floats as there are Gaussians
   /// @{
-  const cl::Buffer &sums() const { return Sums; } ///< at least SUM_WORDS planes
+  const cl::Buffer &sums() const { return Sums; } ///< recordSums() planes
   const cl::Buffer &gradients() const { return Gradients; } ///< GRADIENT_PLANES
   /// Plane 3 k + c: coefficient k of channel c.
   const cl::Buffer &shGradients() const { return ShGradients; }

@@ -19,27 +19,29 @@ std::vector<float> interleaved(const std::vector<float> &Planes,
 }
 
 /// The sums of Gaussians that no tile sees, which nothing writes, become 0.
-void clearUnseen(Launcher &L, const Frame &F, std::vector<float> &Sums) {
+void clearUnseen(Launcher &L, const Frame &F, uint32_t Words,
+                 std::vector<float> &Sums) {
   const std::size_t N = F.Gaussians.Count;
   std::vector<uint32_t> Keys(N);
   L.read("depths", Keys.data(), F.Depths.Keys, 4 * N);
   for (std::size_t I = 0; I < N; ++I)
     if (Keys[I] >= CULLED)
-      for (std::size_t K = 0; K < SUM_WORDS; ++K)
+      for (std::size_t K = 0; K < Words; ++K)
         Sums[K * N + I] = 0;
 }
 
 SceneGradients readGradients(Launcher &L, const BackwardPipeline &Back,
-                             const Frame &F, int UsedDegree) {
+                             const Frame &F, RendererKind Kind,
+                             int UsedDegree) {
   const std::size_t N = F.Gaussians.Count;
   const std::size_t Used = 3 * shCoefficients(UsedDegree);
   std::vector<float> Planes(GRADIENT_PLANES * N), Sh(Used * N);
   SceneGradients G;
-  G.Sums.resize(SUM_WORDS * N);
+  G.Sums.resize(recordSums(Kind) * N);
   L.read("gradients", Planes.data(), Back.gradients(), 4 * Planes.size());
   L.read("colours' gradients", Sh.data(), Back.shGradients(), 4 * Sh.size());
   L.read("sums", G.Sums.data(), Back.sums(), 4 * G.Sums.size());
-  clearUnseen(L, F, G.Sums);
+  clearUnseen(L, F, recordSums(Kind), G.Sums);
   G.Means = interleaved(Planes, N, GRADIENT_MEAN, 3);
   G.Scales = interleaved(Planes, N, GRADIENT_SCALE, 3);
   G.Quats = interleaved(Planes, N, GRADIENT_QUATERNION, 4);
@@ -119,7 +121,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   L.beginStage(Stage::ReadBack);
   GradientResult R;
   R.Picture = readPicture(L, Forward.frame(), Picture);
-  R.Gradients = readGradients(L, Back, Forward.frame(), ShDegree);
+  R.Gradients = readGradients(L, Back, Forward.frame(), Options.Kind, ShDegree);
   if (Options.KeepVisible)
     R.MeshShown = readVisible(L, Forward.frame(), Options);
   if (L.failure())

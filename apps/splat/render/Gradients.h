@@ -25,7 +25,7 @@ struct SceneGradients {
   std::vector<float> Means2d; ///< 2 each, px
   std::vector<float> Conics;  ///< 3 each: xx, xy (once), yy
   /// The sums that the rasterizer passes to the cores (docs/abi.md,
-  /// "Backward"): SUM_WORDS planes.
+  /// "Backward"): recordSums() planes.
   std::vector<float> Sums;
 };
 

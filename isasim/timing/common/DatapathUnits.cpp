@@ -108,6 +108,30 @@ constexpr DatapathUnit SumUnit{
     "nine accumulators a pair; across 8 pairs a tree of 3 levels, and one for "
     "the rows; ours"};
 
+/// The same of rays.
+constexpr DatapathUnit RayGradientUnit{
+    "gradients of rays",
+    3,
+    1,
+    2,
+    0,
+    0,
+    0,
+    0,
+    "23 multiplications and 4 additions a pixel, in the 21 multipliers that "
+    "alpha leaves of both lanes and two more; l / D in the divider of the "
+    "other lane; ours"};
+constexpr DatapathUnit RaySumUnit{
+    "sums of rays",
+    4,
+    1,
+    0,
+    12,
+    0,
+    0,
+    0,
+    "as the sums, with twelve accumulators; ours"};
+
 using BackwardPair = std::array<DatapathUnit, 3>;
 
 } // namespace
@@ -120,19 +144,25 @@ std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units) {
 std::string_view expUnitName(uint8_t Exp) { return ExpParts[Exp].Name; }
 std::string_view blendUnitName(uint8_t Blend) { return BlendParts[Blend].Name; }
 
-std::span<const DatapathUnit> backwardUnits(unsigned Reciprocal) {
-  static const std::vector<BackwardPair> Pairs = [] {
+std::span<const DatapathUnit> backwardUnits(unsigned Reciprocal,
+                                            raster::LaneUnits Of) {
+  const auto With = [](const DatapathUnit &Gradients,
+                       const DatapathUnit &Sums) {
     std::vector<BackwardPair> All;
     for (const DatapathUnit &Unit : ReciprocalParts)
-      All.push_back({Unit, GradientUnit, SumUnit});
+      All.push_back({Unit, Gradients, Sums});
     return All;
-  }();
+  };
+  static const std::vector<BackwardPair> Conics = With(GradientUnit, SumUnit),
+                                         Rays =
+                                             With(RayGradientUnit, RaySumUnit);
+  const auto &Pairs = Of.isConic() ? Conics : Rays;
   return Pairs[Reciprocal < Pairs.size() ? Reciprocal : 0];
 }
 
 unsigned backwardDepth(raster::LaneUnits Units, unsigned Reciprocal) {
   unsigned Depth = laneDepth(Units);
-  for (const DatapathUnit &U : backwardUnits(Reciprocal))
+  for (const DatapathUnit &U : backwardUnits(Reciprocal, Units))
     Depth += U.Latency;
   return Depth;
 }

@@ -51,9 +51,11 @@ double laneArea(raster::LaneUnits Units);
 std::string areasJson();
 /// @}
 
-/// What a pair of lanes has beyond two lanes in the backward mode, with the
-/// unit that raster::ReciprocalUnits has for \p Reciprocal.
-std::span<const DatapathUnit> backwardUnits(unsigned Reciprocal);
+/// What a pair of lanes has beyond two lanes in the backward mode: the unit
+/// that raster::ReciprocalUnits has for \p Reciprocal, and by the front end of
+/// \p Of those for gradients and for sums.
+std::span<const DatapathUnit> backwardUnits(unsigned Reciprocal,
+                                            raster::LaneUnits Of = {});
 
 /// Cycles from giving a pixel to a pair until it is in its Gaussian's sums.
 unsigned backwardDepth(raster::LaneUnits Units, unsigned Reciprocal);

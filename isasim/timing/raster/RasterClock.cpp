@@ -279,7 +279,8 @@ void RasterClock::take() {
 void RasterClock::countBlends() {
   const uint64_t Blends = Work.command().Counts.Blends;
   if (task().IsBackward)
-    OfLanes.Gradients += Blends;
+    (task().Units.isConic() ? OfLanes.Gradients : OfLanes.RayGradients) +=
+        Blends;
   else if (task().Units.isOpaque())
     OfLanes.Passed += Blends;
   else

@@ -94,6 +94,7 @@ LaneWork &LaneWork::operator+=(const LaneWork &Other) {
   for (size_t N = 0; N != Blended.size(); ++N)
     Blended[N] += Other.Blended[N];
   Gradients += Other.Gradients;
+  RayGradients += Other.RayGradients;
   for (size_t N = 0; N != Covered.size(); ++N)
     Covered[N] += Other.Covered[N];
   Passed += Other.Passed;

@@ -19,9 +19,11 @@ namespace {
 constexpr float Never = std::numeric_limits<float>::infinity();
 } // namespace
 
-std::vector<ProgramSpec> densityPrograms() {
-  return {kernels::density::Program{}, kernels::scan::Program{},
-          kernels::sort::Program{}};
+std::vector<ProgramSpec> densityPrograms(RendererKind Of) {
+  kernels::density::Program Density;
+  if (Of == RendererKind::Ray)
+    Density.USE_RAYS = EffectSwitch::compiled();
+  return {Density, kernels::scan::Program{}, kernels::sort::Program{}};
 }
 
 ProgramSpec batchProgram() { return kernels::batch::Program{}; }

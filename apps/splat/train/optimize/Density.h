@@ -1,6 +1,7 @@
 /// Density control on the device: cloning, splitting, pruning, opacity resets.
 #pragma once
 
+#include "picture/Options.h"
 #include "render/Sorter.h"
 #include "train/optimize/DeviceScene.h"
 #include "train/settings/Settings.h"
@@ -12,11 +13,11 @@ namespace vorion::splat {
 /// Sums views (kernels/batch.cl).
 ProgramSpec batchProgram();
 /// The programs of density control, including scan and sort.
-std::vector<ProgramSpec> densityPrograms();
+std::vector<ProgramSpec> densityPrograms(RendererKind Of = RendererKind::Splat);
 
 /// The results of a view for the statistics of density control.
 struct SeenView {
-  cl::Buffer Records;     ///< splat_gaussian of each Gaussian
+  cl::Buffer Records;     ///< splat_record of each Gaussian
   cl::Buffer Depths;      ///< their keys: CULLED or above if invisible
   cl::Buffer Gradients;   ///< planes of floats, which include gradients by
   uint32_t MeanPlane = 0; ///< the projected mean, px: this and the next

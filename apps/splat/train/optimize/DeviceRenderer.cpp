@@ -11,10 +11,11 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
                               const DeviceRenderer::Look &How) {
   RenderOptions O;
   O.Convention = Convention;
+  O.Kind = How.Kind;
   O.Blending = By.Kind;
   O.Tile = By.Tile;
   O.SimtGroup = By.SimtGroup;
-  O.Antialiased = How.Antialiased;
+  drawAs(O, {How.Antialiased, std::nullopt, {}});
   O.Near = How.Near;
   O.Optics = How.Optics;
   O.Rolling = How.Rolling;

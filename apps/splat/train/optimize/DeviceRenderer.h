@@ -36,6 +36,7 @@ public:
     const LensModel *Optics = CameraModel().Model;
     bool Rolling = false;
     Spread Through = Spread::Jacobian;
+    RendererKind Kind = RendererKind::Splat;
     ViewFacts Facts{}; ///< those that do not depend on the scene
     /// @}
   };

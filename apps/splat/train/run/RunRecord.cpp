@@ -126,6 +126,8 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
     J["distorted"] = true;
   if (Run.Through != Spread::Jacobian)
     J["projection"] = name(Run.Through);
+  if (Run.Kind != RendererKind::Splat)
+    J["renderer"] = name(Run.Kind);
   if (Run.Masks != MaskSource::None)
     J["masks"] = name(Run.Masks);
   // What the order of the cores' sums depends on.

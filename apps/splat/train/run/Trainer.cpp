@@ -16,8 +16,8 @@ namespace vorion::splat {
 
 std::vector<ProgramSpec> Trainer::programs(const TrainSettings &Settings,
                                            const TrainingSet &Pictures,
-                                           MomentsOn Where) {
-  std::vector<ProgramSpec> Programs = densityPrograms();
+                                           MomentsOn Where, RendererKind Kind) {
+  std::vector<ProgramSpec> Programs = densityPrograms(Kind);
   Programs.push_back(lossProgram());
   Programs.push_back(adamProgram(Where));
   Programs.push_back(batchProgram());

@@ -39,6 +39,7 @@ struct TrainRun {
   /// Whether original photographs are used, with their lenses.
   LensOf Pictures = LensOf::Undistorted;
   Spread Through = Spread::Jacobian;
+  RendererKind Kind = RendererKind::Splat;
   /// Depth of the near plane; empty: that of the rules.
   std::optional<float> Near = std::nullopt;
   /// Of the frame in which the scene is trained (\c CapturePoints). Cameras and
@@ -67,9 +68,10 @@ class Trainer {
 public:
   /// The programs of training on \p Pictures, in addition to those of the
   /// renderer.
-  static std::vector<ProgramSpec> programs(const TrainSettings &Settings,
-                                           const TrainingSet &Pictures,
-                                           MomentsOn Where = MomentsOn::Device);
+  static std::vector<ProgramSpec>
+  programs(const TrainSettings &Settings, const TrainingSet &Pictures,
+           MomentsOn Where = MomentsOn::Device,
+           RendererKind Kind = RendererKind::Splat);
 
   /// \p Pictures, \p Run, \p Renderer and \p Processes must outlive this.
   Trainer(Launcher &Launch, GradientRenderer &Renderer,

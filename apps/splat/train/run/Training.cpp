@@ -453,12 +453,12 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
     noteRoom(W, *D);
   Launch.beginStage(Stage::Build);
   for (const ProgramSpec &P :
-       Trainer::programs(R.Run.Settings, *Pictures, Out.Moments))
+       Trainer::programs(R.Run.Settings, *Pictures, Out.Moments, R.Run.Kind))
     Launch.build(P);
   DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
                           {R.Run.Background, R.Run.RandomBackground,
                            R.Run.Antialiased, R.Run.Near, *Model,
-                           isRolling(Cameras), R.Run.Through,
+                           isRolling(Cameras), R.Run.Through, R.Run.Kind,
                            factsOfCameras(relativeTo(Cameras, R.Run.Origin))});
   Trainer T(Launch, Renderer, *Pictures, R.Run, Processes, Out.Moments);
   if (auto Started = start(W, T); !Started)
