@@ -69,7 +69,10 @@ bool isScatteredNow(uint32_t Mask, const LaneWords &Words) {
 
 Known knownNow(const WarpState &S) {
   Known K;
-  const uint32_t Mask = S.Mask;
+  // One lane agrees with itself, which says nothing of the others, that come
+  // back behind.
+  const uint32_t Mask =
+      std::has_single_bit(S.Mask) ? S.Mask | S.WholeMask : S.Mask;
   if (Mask == 0)
     return K;
   const auto IsInStacks = [&S, Mask](const LaneWords &Words) {
@@ -77,7 +80,7 @@ Known knownNow(const WarpState &S) {
   };
   for (unsigned N = 0; N != NumRegisters; ++N) {
     K.Uniform.Registers[N] = isSameNow(Mask, S.Registers[N]);
-    K.Scattered.Registers[N] = isScatteredNow(Mask, S.Registers[N]);
+    K.Scattered.Registers[N] = isScatteredNow(S.Mask, S.Registers[N]);
     K.InStacks.Registers[N] = IsInStacks(S.Registers[N]);
   }
   for (size_t N = 0; N != K.Uniform.Words.size(); ++N) {
@@ -97,7 +100,7 @@ Known knownNow(const WarpState &S) {
       Words[L] = Word;
     }
     K.Uniform.Words[N] = IsThere && isSameNow(Mask, Words);
-    K.Scattered.Words[N] = IsThere && isScatteredNow(Mask, Words);
+    K.Scattered.Words[N] = IsThere && isScatteredNow(S.Mask, Words);
     K.InStacks.Words[N] = IsThere && IsInStacks(Words);
   }
   return K;
