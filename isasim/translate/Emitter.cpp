@@ -307,6 +307,26 @@ bool keepsVectors(Kind Is) {
 
 } // namespace
 
+/// Keeps in k5 what \p G, a comparison, has in k2, if a split or predicate of
+/// its result is near: hosts take several cycles to make words of a mask and a
+/// mask of words, and the jumps there wait for it.
+void Emitter::keepTest(const GuestInsn &G) {
+  constexpr size_t Near = 4;
+  const GuestInsn *End = Region.data() + Region.size();
+  for (const GuestInsn *At = &G + 1; At != End && !At->Leads; ++At) {
+    if (At->I != G.I + (At - &G) || static_cast<size_t>(At - &G) > Near)
+      return;
+    if (At->Is == Kind::Lanes && At->Opcode != Op::VX_JOIN &&
+        At->I->Rs1 == G.I->Rd) {
+      copy(k5, k2);
+      Tested = G.I->Rd;
+      return;
+    }
+    if (!keepsVectors(At->Is) || At->I->Rd == G.I->Rd)
+      return;
+  }
+}
+
 void Emitter::writeInsn(const GuestInsn &G) {
   Scratches = isWide() ? 0 : HeldVectors::Count;
   Held.endInstruction();
@@ -357,8 +377,10 @@ void Emitter::writeInsn(const GuestInsn &G) {
     jmp(toInterpreter());
     break;
   }
-  if (!keepsVectors(G.Is))
+  if (!keepsVectors(G.Is)) {
     Held.forget();
+    Tested.reset();
+  }
   followStackPointer(G);
   ++Pending.Insns;
   if (ToInterpreter)
@@ -387,6 +409,7 @@ void Emitter::writeMode(unsigned Mode) {
       countPending();
       L(Labels[Full][G.I]);
       Held.forget();
+      Tested.reset();
     }
     writeInsn(G);
     const bool Falls = N + 1 != Region.size() && Region[N + 1].I == G.I + 1;

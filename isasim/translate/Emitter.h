@@ -47,6 +47,7 @@ struct Entry {
 ///        have of the guest's registers (HeldVectors.h)
 ///   with AVX-512, zmm8  the first active lane's number
 ///        zmm9 and on  the guest's registers that are used most
+///        k5  the lanes of a comparison in front of a split (keepTest())
 /// rax, rcx, rdx, rsi, r11 and k2 to k4 are for one instruction.
 class Emitter : public HostVectors {
 public:
@@ -139,13 +140,14 @@ private:
   void join(const GuestInsn &G);
   void predicate(const GuestInsn &G, bool IsNegated);
   void predicateOf(uint16_t Register, bool IsNegated);
+  void keepTest(const GuestInsn &G);
   void spreadLast(const Xbyak::Zmm &To, const Xbyak::Zmm &From);
   void lastLane(uint16_t Register);
   void vote(const GuestInsn &G);
   void shuffle(const GuestInsn &G);
   void barrier(const GuestInsn &G);
-  void changeLanes();
-  void keepLanes();
+  void changeLanes(bool AreInMask = false);
+  void keepLanes(bool AreInMask = false);
   void resumeAtEither(const Insn *To);
   void storeLanes();
 
@@ -209,8 +211,9 @@ private:
   struct {
     unsigned Insns = 0, Loads = 0, Stores = 0;
   } Pending;
-  int Scratches = 0; ///< given away to the present instruction
-  HeldVectors Held;  ///< with AVX2
+  int Scratches = 0;              ///< given away to the present instruction
+  HeldVectors Held;               ///< with AVX2
+  std::optional<uint16_t> Tested; ///< the register of what k5 has
   bool IsOutOfLine = false;
   /// A result that has not been looked at for NaNs, and what is to be done
   /// where it has some.

@@ -18,6 +18,8 @@ void Emitter::integer(const GuestInsn &G) {
                                    : guest(I->Rs2));
   const auto Becomes = [&](const Value &V) {
     result(I->Rd, [&](const Xbyak::Zmm &To) { V.into(To); });
+    if (V.What == Do::One && isWide())
+      keepTest(G);
   };
   switch (G.Opcode) {
 #define INT(OP, RESULT)                                                        \

@@ -56,20 +56,21 @@ void Emitter::resumeAtEither(const Insn *To) {
 
 /// Counts up to and with the present instruction; then the lanes of eax, which
 /// is not 0, are the active ones. What else the interpreter keeps of them is
-/// brought up to date when it goes on. Overwrites rcx and rdx.
-void Emitter::changeLanes() {
+/// brought up to date when it goes on. With AVX-512 k2 has them, too, if \p
+/// AreInMask. Overwrites rcx and rdx.
+void Emitter::changeLanes(bool AreInMask) {
   addPresent();
   countLanes();
   mov(r9, r8);
   mov(dword[rdi + MaskPlace], eax);
   limitStretch();
-  keepLanes();
+  keepLanes(AreInMask);
 }
 
 /// Keeps the lanes of eax, and the first one, where instructions look for them.
 /// Overwrites rdx.
-void Emitter::keepLanes() {
-  kmovw(k1, eax);
+void Emitter::keepLanes(bool AreInMask) {
+  isWide() && AreInMask ? copy(k1, k2) : kmovw(k1, eax);
   if (!isWide())
     return;
   bsf(edx, eax);
@@ -94,9 +95,16 @@ void Emitter::storeLanes() {
   vmovdqa32(ptr[rdi + VORION_PLACE(MaskWords)], zmm0);
 }
 
-/// eax becomes the active lanes whose predicate is set, in \p Register.
+/// eax, and with AVX-512 k2, become the active lanes whose predicate is set, in
+/// \p Register.
 void Emitter::predicateOf(uint16_t Register, bool IsNegated) {
-  oddLanes(eax, inZmm(guest(Register)), IsNegated, isFull());
+  if (Tested != Register)
+    return oddLanes(eax, inZmm(guest(Register)), IsNegated, isFull());
+  if (!IsNegated)
+    copy(k2, k5);
+  else
+    isFull() ? knotw(k2, k5) : kandnw(k2, k5, k1);
+  kmovw(eax, k2);
 }
 
 void Emitter::split(const GuestInsn &G, bool IsNegated) {
@@ -124,7 +132,7 @@ void Emitter::split(const GuestInsn &G, bool IsNegated) {
   mov(rcx, reinterpret_cast<uint64_t>(I + 1));
   mov(ptr[rdx + TopPc], rcx);
   inc(dword[rdi + DepthPlace]);
-  changeLanes();
+  changeLanes(true);
   resumeAt(I + 1, 0);
   Held.forget();
   L(Uniform);
@@ -197,7 +205,7 @@ void Emitter::predicate(const GuestInsn &G, bool IsNegated) {
     L(Fewer);
     inc(qword[rdi + VORION_PLACE(Count.Splits)]);
     inc(qword[rdi + VORION_PLACE(Count.DivergentSplits)]);
-    changeLanes();
+    changeLanes(true);
     resumeAt(I + 1, 0);
     L(None);
     lastLane(I->Rs2);

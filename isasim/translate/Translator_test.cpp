@@ -192,7 +192,10 @@ public:
   void addSplit(std::vector<uint32_t> &Words, unsigned Depth) {
     const unsigned Token = FirstToken + Depth;
     Words.push_back(
-        encode(Op::RV_ANDI, {.Rd = Predicate, .Rs1 = below(32), .Imm = 1}));
+        below(2)
+            ? encode(Op::RV_ANDI, {.Rd = Predicate, .Rs1 = below(32), .Imm = 1})
+            : encode(Op::RV_SLTU,
+                     {.Rd = Predicate, .Rs1 = below(32), .Rs2 = below(32)}));
     const bool IsNegated = below(2);
     Words.push_back(encode(IsNegated ? Op::VX_SPLIT_N : Op::VX_SPLIT,
                            {.Rd = Token, .Rs1 = Predicate}));
