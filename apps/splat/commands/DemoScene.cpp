@@ -44,7 +44,7 @@ MadeScene make(const DemoArguments &A) {
   const demo::BenchmarkShape &Shape =
       demo::benchmarkShape(*A.Benchmark, A.Gaussians);
   return {demo::makeBenchmark(*A.Benchmark, Shape, A.Gaussians),
-          demo::benchmarkCameras(*A.Benchmark, Shape.Distance)};
+          demo::benchmarkCameras(*A.Benchmark, Shape.distances())};
 }
 
 /// \p Hash: of the scene's file.

@@ -67,7 +67,7 @@ struct Cell {
   uint64_t Id;
   double S, T, Width, Height; ///< in the part
   double Area, Weight;
-  double Size, Faint; ///< of the shape, as they are in the cell's block
+  double Size, Faint, Opaque; ///< of the shape, as they are in the block
 };
 
 void addCells(std::vector<Cell> &Cells, const Part &P, uint64_t Id,
@@ -106,6 +106,7 @@ void addCells(std::vector<Cell> &Cells, const Part &P, uint64_t Id,
       C.Area = Area;
       C.Size = Shape.Size * portableExp(Shape.BlockSize * Block.normal());
       C.Faint = Shape.Faint * portableExp(Shape.BlockFaint * Block.normal());
+      C.Opaque = Shape.Opaque * portableExp(Shape.BlockOpaque * Block.normal());
       const Part::Point At = P.at(C.S + 0.5 * C.Width, C.T + 0.5 * C.Height);
       const dvec3 Away = (At.Position - Subject.Middle) / Subject.Radius;
       const bool IsBack = P.Shape != Part::Form::Crown &&
@@ -203,7 +204,7 @@ void setGaussian(Scene &S, std::size_t I, const Cell &C, int64_t K,
   if (D.even() < Shape.Large)
     LogSize += portableLog(Shape.LargeSize);
   const double Opacity =
-      D.even() < Shape.Opaque
+      D.even() < C.Opaque
           ? 0.99
           : std::clamp(Shape.Most * portablePower(D.even(), C.Faint), 0.005,
                        0.99);
@@ -232,14 +233,17 @@ void setGaussian(Scene &S, std::size_t I, const Cell &C, int64_t K,
 
 } // namespace
 
-Scene makeBenchmark(BenchmarkKind K, const BenchmarkShape &Shape,
-                    int Gaussians) {
+Scene makeBenchmark(BenchmarkKind K, const BenchmarkShape &Shape, int Gaussians,
+                    unsigned Seed) {
   const std::vector<Part> Parts = benchmarkParts(K);
   const std::array<double, 3> Eye =
-      benchmarkCameras(K, Shape.Distance).front().Position;
+      benchmarkCameras(K, Shape.distances()).front().Position;
   std::vector<Cell> Cells;
+  // Random numbers follow from a cell's identity, of which this is a part.
+  constexpr std::size_t PartsASeed = 1000;
   for (std::size_t I = 0; I < Parts.size(); ++I)
-    addCells(Cells, Parts[I], I + 1, K, {Eye[0], Eye[1], Eye[2]}, Shape);
+    addCells(Cells, Parts[I], PartsASeed * Seed + I + 1, K,
+             {Eye[0], Eye[1], Eye[2]}, Shape);
   double Whole = 0;
   for (const Cell &C : Cells)
     Whole += C.Weight;

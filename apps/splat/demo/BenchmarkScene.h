@@ -10,31 +10,36 @@ namespace vorion::splat::demo {
 /// bench/benchmark_fit.py fits to real scenes. A "spread" is the standard
 /// deviation of a logarithm.
 struct BenchmarkShape {
-  double Distance; ///< of the cameras, as a factor
+  double Distance;      ///< of the first view's camera, as a factor
+  double Second, Third; ///< of the others' cameras
   double Behind;  ///< Gaussians an area of what others hide; 0: it is not there
   double Nowhere; ///< the same of what no view shows
   double Back;    ///< the same of what faces away from the first view
   double Fading;  ///< power by which they get fewer away from the subject
   double Clumps;  ///< spread of their number an area
   double Size;    ///< larger deviation, median, in spacings of neighbours
-  double SizeSpread; ///< its spread within a block of cells
-  double BlockSize;  ///< its spread between blocks
-  double Stretch;    ///< spread of the ratio of the two deviations
-  double Large;      ///< share of Gaussians that fill in
-  double LargeSize;  ///< by what factor these are larger
-  double Depth;      ///< deviation of their places across a surface, spacings
-  double Opaque;     ///< share of opacity 0.99
-  double Most;       ///< largest opacity of the others
-  double Faint;      ///< power of an even number that, times that, is theirs
-  double BlockFaint; ///< spread of that between blocks
+  double SizeSpread;  ///< its spread within a block of cells
+  double BlockSize;   ///< its spread between blocks
+  double Stretch;     ///< spread of the ratio of the two deviations
+  double Large;       ///< share of Gaussians that fill in
+  double LargeSize;   ///< by what factor these are larger
+  double Depth;       ///< deviation of their places across a surface, spacings
+  double Opaque;      ///< share of opacity 0.99
+  double BlockOpaque; ///< spread of that between blocks
+  double Most;        ///< largest opacity of the others
+  double Faint;       ///< power of an even number that, times that, is theirs
+  double BlockFaint;  ///< spread of that between blocks
+
+  std::array<double, 3> distances() const { return {Distance, Second, Third}; }
 };
 
 /// The fitted one for about so many Gaussians.
 const BenchmarkShape &benchmarkShape(BenchmarkKind K, int Gaussians);
 
 /// Exactly \p Gaussians of degree 3, at least 1000: the same bits on every
-/// host.
-Scene makeBenchmark(BenchmarkKind K, const BenchmarkShape &Shape,
-                    int Gaussians);
+/// host. \p Seed: other random numbers, of which the set has the first; below
+/// 1000.
+Scene makeBenchmark(BenchmarkKind K, const BenchmarkShape &Shape, int Gaussians,
+                    unsigned Seed = 0);
 
 } // namespace vorion::splat::demo

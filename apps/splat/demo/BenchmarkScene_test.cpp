@@ -43,5 +43,27 @@ TEST(BenchmarkScene, LeavesOutWhatIsNotThere) {
     EXPECT_GT(S.Means[3 * I + 2], -14.5F);
 }
 
+TEST(BenchmarkScene, HasOtherPlacesWithAnotherSeed) {
+  const BenchmarkShape &Shape = benchmarkShape(BenchmarkKind::Object, 1000);
+  const Scene First = makeBenchmark(BenchmarkKind::Object, Shape, 1000),
+              Other = makeBenchmark(BenchmarkKind::Object, Shape, 1000, 1);
+  EXPECT_EQ(makeBenchmark(BenchmarkKind::Object, Shape, 1000, 0).Means,
+            First.Means);
+  ASSERT_EQ(Other.size(), First.size());
+  EXPECT_NE(Other.Means, First.Means);
+}
+
+TEST(BenchmarkScene, MovesEachCameraByItsOwnFactor) {
+  const std::array<double, 3> At = {1, 1, 1}, Farther = {1, 2, 1};
+  for (const BenchmarkKind K : BenchmarkKinds) {
+    const auto Near = benchmarkCameras(K, At),
+               Far = benchmarkCameras(K, Farther);
+    EXPECT_EQ(Near[0].Position, Far[0].Position) << name(K);
+    EXPECT_NE(Near[1].Position, Far[1].Position) << name(K);
+    EXPECT_EQ(Near[1].Rotation, Far[1].Rotation) << name(K);
+    EXPECT_EQ(Near[2].Position, Far[2].Position) << name(K);
+  }
+}
+
 } // namespace
 } // namespace vorion::splat::demo

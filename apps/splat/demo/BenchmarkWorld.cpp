@@ -347,10 +347,12 @@ Focus benchmarkFocus(BenchmarkKind K) {
   __builtin_unreachable();
 }
 
-std::vector<Camera> benchmarkCameras(BenchmarkKind K, double Distance) {
+std::vector<Camera> benchmarkCameras(BenchmarkKind K,
+                                     const std::array<double, 3> &Distances) {
   const auto At = [&](int Id, const char *Name, const dvec3 &Target,
                       const dvec3 &Away) {
-    return lookAt(Id, Name, Target, Distance * Away);
+    return lookAt(Id, Name, Target,
+                  Distances[static_cast<std::size_t>(Id)] * Away);
   };
   switch (K) {
   case BenchmarkKind::Indoor:

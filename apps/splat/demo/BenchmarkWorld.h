@@ -70,8 +70,9 @@ struct Focus {
 };
 Focus benchmarkFocus(BenchmarkKind K);
 
-/// Three views, 980x545, the size of the data set Train. \p Distance: factor of
-/// the cameras' distance to what they look at.
-std::vector<Camera> benchmarkCameras(BenchmarkKind K, double Distance);
+/// Three views, 980x545, the size of the data set Train. \p Distances: factors
+/// of the cameras' distances to what they look at.
+std::vector<Camera> benchmarkCameras(BenchmarkKind K,
+                                     const std::array<double, 3> &Distances);
 
 } // namespace vorion::splat::demo
