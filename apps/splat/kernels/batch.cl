@@ -11,16 +11,3 @@ __kernel void batch_add(__global float *sums, __global const float *gradients,
   const float sum = first ? gradients[i] : sums[i] + gradients[i];
   sums[i] = sum * scale;
 }
-
-// Density control's notes of one view, added to those of all.
-__kernel void batch_note(__global float *sums, __global uint *views,
-                         __global float *radii, __global const float *sum,
-                         __global const uint *view,
-                         __global const float *radius, uint count) {
-  const uint i = get_global_id(0);
-  if (i >= count)
-    return;
-  sums[i] += sum[i];
-  views[i] += view[i];
-  radii[i] = fmax(radii[i], radius[i]);
-}

@@ -14,6 +14,8 @@
 
 // Rows of a group's tile.
 #pragma vorion choice uint TILE_ROWS
+// A launch has some rows of tiles of a picture.
+#pragma vorion choice flag DIVIDED
 
 #define LANES 16
 #define REACH 5
@@ -108,10 +110,19 @@ column_sums(__local float *rows, uint count, uint quantities, uint lane) {
     }
 }
 
+// The row of tiles of a group, and the number of rows in the picture.
+#ifdef DIVIDED
+#define ROW_OF_TILES (first_row + get_group_id(1))
+#define ROWS_OF_TILES rows_of_tiles
+#else
+#define ROW_OF_TILES get_group_id(1)
+#define ROWS_OF_TILES get_num_groups(1)
+#endif
+
 // Where the slopes of row y begin: a quantity of the `columns` of all tiles,
 // then the next.
-static uint slopes_at(uint c, uint y, uint columns) {
-  return (c * get_num_groups(1) * TILE_ROWS + y) * SLOPES * columns;
+static uint slopes_at(uint c, uint y, uint columns, uint rows_of_tiles) {
+  return (c * rows_of_tiles * TILE_ROWS + y) * SLOPES * columns;
 }
 
 // Rows of the tile from row y on that are in the picture.
@@ -124,14 +135,17 @@ static uint rows_from(uint y, uint height) {
 // group's sums of |x - y| and SSIM.
 __kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
 loss_slopes(__global const float *picture, __global const uint *photo,
-            __global float *slopes, __global float *totals, uint width,
-            uint height) {
+            __global float *slopes, __global float *totals,
+#ifdef DIVIDED
+            uint first_row, uint rows_of_tiles,
+#endif
+            uint width, uint height) {
   __local float values[ROWS_READ(PICTURE_AHEAD) * READ_PITCH(2)];
   __local float rows[ROWS * SUM_PITCH(MOMENTS)];
   __local float parts[2 * LANES];
 
   const uint lane = get_local_id(0);
-  const uint x0 = get_group_id(0) * LANES, y0 = get_group_id(1) * TILE_ROWS;
+  const uint x0 = get_group_id(0) * LANES, y0 = ROW_OF_TILES * TILE_ROWS;
   const uint c = get_group_id(2);
   const uint columns = get_num_groups(0) * LANES;
   const uint own_rows = rows_from(y0, height);
@@ -189,7 +203,7 @@ loss_slopes(__global const float *picture, __global const uint *photo,
                                   mean_x * ssim * (1.0f / q - 1.0f / p));
     const int inside = x0 + lane < width;
     __global float *to =
-        slopes + slopes_at(c, y0 + row, columns) + x0 + lane;
+        slopes + slopes_at(c, y0 + row, columns, ROWS_OF_TILES) + x0 + lane;
     to[0] = select(0.0f, by_mean, inside);
     to[columns] = select(0.0f, -ssim / q, inside);
     to[2 * columns] = select(0.0f, 2.0f * a * inverse, inside);
@@ -206,8 +220,7 @@ loss_slopes(__global const float *picture, __global const uint *photo,
     float sum = 0.0f;
     for (uint k = 0; k < LANES; ++k)
       sum += parts[lane * LANES + k];
-    const uint group = (c * get_num_groups(1) + get_group_id(1)) *
-                           get_num_groups(0) +
+    const uint group = (c * ROWS_OF_TILES + ROW_OF_TILES) * get_num_groups(0) +
                        get_group_id(0);
     totals[2 * group + lane] = sum;
   }
@@ -219,12 +232,15 @@ loss_slopes(__global const float *picture, __global const uint *photo,
 __kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
 loss_gradient(__global const float *picture, __global const uint *photo,
               __global const float *slopes, __global float *gradient,
+#ifdef DIVIDED
+              uint first_row, uint rows_of_tiles,
+#endif
               uint width, uint height, float per_absolute, float per_ssim) {
   __local float values[ROWS_READ(SLOPES_AHEAD) * READ_PITCH(SLOPES)];
   __local float rows[ROWS * SUM_PITCH(SLOPES)];
 
   const uint lane = get_local_id(0);
-  const uint x0 = get_group_id(0) * LANES, y0 = get_group_id(1) * TILE_ROWS;
+  const uint x0 = get_group_id(0) * LANES, y0 = ROW_OF_TILES * TILE_ROWS;
   const uint c = get_group_id(2);
   const uint columns = get_num_groups(0) * LANES;
   const uint own_rows = rows_from(y0, height);
@@ -239,7 +255,7 @@ loss_gradient(__global const float *picture, __global const uint *photo,
       const uint y = y0 + first + k / 2 - REACH;
       inside[k] = (x < columns) & (y < height);
       __global const float *from =
-          slopes + (inside[k] ? slopes_at(c, y, columns) + x : 0);
+          slopes + (inside[k] ? slopes_at(c, y, columns, ROWS_OF_TILES) + x : 0);
 #pragma unroll
       for (uint p = 0; p < SLOPES; ++p)
         slope[k][p] = from[p * columns];

@@ -163,6 +163,9 @@ cl::Buffer BackwardPipeline::sumsOf(Pipeline &Forward, const Frame &F,
   if (Choice.Pixels != SimtSums::Ordered)
     return sumsByAtomics(F, By);
   blend(Forward, F, By);
+  // The reduction then adds in the same order in all processes.
+  if (TileDivision *const Division = Forward.division())
+    Division->completePairs(F, PairSums, Choice.sums(Options.Kind));
   if (AsStages)
     Launch.beginStage(Stage::Reduce);
   return reduce(F);

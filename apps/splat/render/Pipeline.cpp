@@ -125,6 +125,8 @@ GaussianBuffers uploadGaussians(Launcher &Launch, SceneSource From,
 
 void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
   prepare(Gaussians, C);
+  if (Division)
+    Division->keepOwn(Current, Options.tileHeight());
   if (Launch.failure())
     return;
   Launch.beginStage(Stage::Blend);
@@ -434,6 +436,8 @@ void Pipeline::blend() {
     else
       rasterize(Range);
   }
+  if (Division)
+    Division->completePixels(Current);
 }
 
 void Pipeline::rasterize(uint32_t Range) {

@@ -7,6 +7,7 @@
 #include "picture/Layout.h"
 #include "render/Plan.h"
 #include "render/Sorter.h"
+#include "render/TileDivision.h"
 #include "scene/Scene.h"
 
 #include <array>
@@ -175,6 +176,11 @@ public:
   Pipeline(Launcher &Launch, const RenderOptions &O, EffectPlan Effects)
       : Launch(Launch), Options(O), Plan(std::move(Effects)), Sort(Launch) {}
 
+  /// Divides subsequent pictures by \p By, which must outlive them; null: not.
+  void divide(TileDivision *By) { Division = By; }
+  /// Null if the frame is not divided.
+  TileDivision *division() const { return Division; }
+
   /// Projects, sorts and blends \p Gaussians for the view \p C; each step is a
   /// stage of the launcher. Releases the buffers of the previous frame.
   void draw(const GaussianBuffers &Gaussians, const Camera &C);
@@ -250,6 +256,7 @@ private:
   const RenderOptions &Options;
   EffectPlan Plan;
   Sorter Sort;
+  TileDivision *Division = nullptr;
   Frame Current;
   cl::Buffer Counts;     ///< of tiles, over all frames; see Frame::Last
   cl::Buffer LastRanges; ///< lists of the last frame, if it distributes the

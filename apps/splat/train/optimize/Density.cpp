@@ -59,43 +59,19 @@ DensityNotes DensityControl::download(const Notebook &From, uint32_t Count) {
   return N;
 }
 
-void DensityControl::note(const Notebook &In, const SeenView &V,
-                          uint32_t Count) {
+void DensityControl::note(const SeenView &V, uint32_t Count) {
   Launch.run(itemsFor(Count), GroupSize,
              kernels::density::density_note{
                  .records = V.Records,
                  .depths = V.Depths,
                  .gradients = V.Gradients,
                  .plane = V.MeanPlane,
-                 .sums = In.GradientSums,
-                 .views = In.Views,
-                 .radii = In.Radii,
+                 .sums = Noted.GradientSums,
+                 .views = Noted.Views,
+                 .radii = Noted.Radii,
                  .count = Count,
                  .half_width = 0.5F * static_cast<float>(V.Width),
                  .half_height = 0.5F * static_cast<float>(V.Height)});
-}
-
-void DensityControl::note(const SeenView &V, uint32_t Count) {
-  note(Noted, V, Count);
-}
-
-DensityNotes DensityControl::noteAlone(const SeenView &V, uint32_t Count) {
-  const Notebook Alone = upload(nothing(Count));
-  note(Alone, V, Count);
-  return download(Alone, Count);
-}
-
-void DensityControl::merge(const DensityNotes &OfAView) {
-  const auto Count = static_cast<uint32_t>(OfAView.Views.size());
-  const Notebook Added = upload(OfAView);
-  Launch.run(itemsFor(Count), GroupSize,
-             kernels::batch::batch_note{.sums = Noted.GradientSums,
-                                        .views = Noted.Views,
-                                        .radii = Noted.Radii,
-                                        .sum = Added.GradientSums,
-                                        .view = Added.Views,
-                                        .radius = Added.Radii,
-                                        .count = Count});
 }
 
 /// The sum of \p Values; their prefix sums are left in Places.

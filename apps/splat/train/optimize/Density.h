@@ -49,10 +49,6 @@ public:
   /// Resets the statistics for \p Count Gaussians.
   void restart(uint32_t Count);
   void note(const SeenView &V, uint32_t Count);
-  /// The statistics of one view, for another process, whose \c merge is
-  /// bit-identical to \c note.
-  DensityNotes noteAlone(const SeenView &V, uint32_t Count);
-  void merge(const DensityNotes &OfAView);
   /// Clones, splits and prunes by the statistics, and resets them. Moments of
   /// remaining Gaussians are kept; those of new Gaussians are 0. Random numbers
   /// depend only on seed, iteration and the identity of the Gaussian.
@@ -70,7 +66,6 @@ private:
   };
   Notebook upload(const DensityNotes &N);
   DensityNotes download(const Notebook &From, uint32_t Count);
-  void note(const Notebook &In, const SeenView &V, uint32_t Count);
   uint32_t decide(const DeviceScene &S, unsigned Iteration);
   uint32_t withoutGradient(uint32_t Count);
   uint32_t total(const cl::Buffer &Counts, uint32_t Count);

@@ -47,6 +47,10 @@ public:
   void setBackground(const std::array<float, 3> &Colour) override {
     Behind = Colour;
   }
+  bool divide(TileDivision *By) override {
+    Drawing.divide(By);
+    return true;
+  }
   cl::Buffer forward(const DeviceScene &S, const Camera &C,
                      int ShDegree) override;
   Backward backward(const cl::Buffer &ByRender, const cl::Buffer &ByAlpha,

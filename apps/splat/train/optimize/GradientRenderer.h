@@ -5,6 +5,7 @@
 #include "train/optimize/DeviceScene.h"
 
 #include "render/DepthTargets.h"
+#include "render/TileDivision.h"
 
 #include "io/Cameras.h"
 
@@ -19,6 +20,10 @@ public:
   /// Sets the background of subsequent pictures. The renderer must be created
   /// for several backgrounds.
   virtual void setBackground(const std::array<float, 3> &Colour) = 0;
+
+  /// Divides subsequent pictures by \p By; null: not. Returns false if this
+  /// renderer always renders whole pictures.
+  virtual bool divide(TileDivision * /*By*/) { return false; }
 
   /// The picture of \p S, four floats per pixel: colour over the background,
   /// and alpha. Bands of spherical harmonics above \p ShDegree are ignored. The

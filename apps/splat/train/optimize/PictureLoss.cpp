@@ -4,20 +4,24 @@
 #include "kernels/mask.cl.h"
 #include "render/Pipeline.h"
 
+#include <algorithm>
+
 namespace vorion::splat {
 namespace {
 
 // A group of kernels/loss.cl has a channel of a tile, of as many rows as local
 // memory has room for.
 constexpr uint32_t TileRows = 42, Channels = 3;
+// Rows and columns of the window on each side of a pixel.
+constexpr uint32_t Reach = 5;
 constexpr uint64_t SlopePlanes = uint64_t{3} * Channels;
 
 constexpr uint32_t divideUp(uint32_t A, uint32_t B) { return (A + B - 1) / B; }
 
 } // namespace
 
-ProgramSpec lossProgram() {
-  return kernels::loss::Program{.TILE_ROWS = TileRows};
+ProgramSpec lossProgram(bool Divided) {
+  return kernels::loss::Program{.TILE_ROWS = TileRows, .DIVIDED = Divided};
 }
 
 ProgramSpec maskProgram() { return kernels::mask::Program{}; }
@@ -40,7 +44,12 @@ void PictureLoss::reserve(uint64_t Pixels, uint64_t Tiles) {
 }
 
 LossValues PictureLoss::evaluate(const cl::Buffer &Drawn, const Photo &Target,
-                                 const std::vector<uint8_t> &Counts) {
+                                 const std::vector<uint8_t> &Counts,
+                                 TileDivision *Among) {
+  if (const bool Divided = Among; Divided != BuiltDivided) {
+    Launch.build(lossProgram(Divided));
+    BuiltDivided = Divided;
+  }
   const auto Width = static_cast<uint32_t>(Target.Width);
   const auto Height = static_cast<uint32_t>(Target.Height);
   const auto Pixels = static_cast<uint32_t>(Target.pixels());
@@ -76,25 +85,40 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Drawn, const Photo &Target,
                                            .pixels = Pixels});
   }
   const double Samples = 3.0 * Counted;
-  const cl::NDRange Items(std::size_t{Across} * Lanes, Down, Channels);
-  const cl::NDRange Group(Lanes, 1, 1);
-  Launch.run(Items, Group,
-             kernels::loss::loss_slopes{.picture = Picture,
-                                        .photo = Packed,
-                                        .slopes = Slopes,
-                                        .totals = Totals,
-                                        .width = Width,
-                                        .height = Height});
-  Launch.run(Items, Group,
-             kernels::loss::loss_gradient{
-                 .picture = Picture,
-                 .photo = Packed,
-                 .slopes = Slopes,
-                 .gradient = Gradient,
-                 .width = Width,
-                 .height = Height,
-                 .per_absolute = static_cast<float>((1 - DSsim) / Samples),
-                 .per_ssim = static_cast<float>(DSsim / Samples)});
+  // The gradient of a row needs slopes of those that its windows cover.
+  TileDivision::PixelRows Own{0, Height}, Around = Own;
+  if (Among) {
+    Own = Among->ownRows();
+    Around = {Own.First - std::min(Own.First, Reach),
+              std::min(Own.End + Reach, Height)};
+  }
+  const auto RunTiles = [&](const TileDivision::PixelRows &Of, auto Kernel) {
+    if (Own.First == Own.End)
+      return;
+    const uint32_t First = Of.First / TileRows;
+    if (Among) {
+      Kernel.first_row = First;
+      Kernel.rows_of_tiles = Down;
+    }
+    Launch.run(cl::NDRange(std::size_t{Across} * Lanes,
+                           divideUp(Of.End, TileRows) - First, Channels),
+               cl::NDRange(Lanes, 1, 1), Kernel);
+  };
+  RunTiles(Around, kernels::loss::loss_slopes{.picture = Picture,
+                                              .photo = Packed,
+                                              .slopes = Slopes,
+                                              .totals = Totals,
+                                              .width = Width,
+                                              .height = Height});
+  RunTiles(Own, kernels::loss::loss_gradient{
+                    .picture = Picture,
+                    .photo = Packed,
+                    .slopes = Slopes,
+                    .gradient = Gradient,
+                    .width = Width,
+                    .height = Height,
+                    .per_absolute = static_cast<float>((1 - DSsim) / Samples),
+                    .per_ssim = static_cast<float>(DSsim / Samples)});
   if (!Counts.empty())
     Launch.run(itemsFor(Pixels), GroupSize,
                kernels::mask::mask_gradient{
@@ -102,6 +126,8 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Drawn, const Photo &Target,
 
   HostTotals.assign(std::size_t{2} * Channels * Across * Down, 0);
   Launch.read("loss", HostTotals.data(), Totals, 4 * HostTotals.size());
+  if (Among)
+    Among->completeStrips(HostTotals, Channels, Down, TileRows);
   LossValues V;
   for (std::size_t I = 0; I < HostTotals.size(); I += 2) {
     V.Absolute += HostTotals[I];

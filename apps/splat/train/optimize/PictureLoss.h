@@ -3,12 +3,14 @@
 
 #include "capture/Photo.h"
 #include "device/Launcher.h"
+#include "render/TileDivision.h"
 
 #include <vector>
 
 namespace vorion::splat {
 
-ProgramSpec lossProgram();
+/// \p Divided: for pictures whose rows are divided over processes.
+ProgramSpec lossProgram(bool Divided = false);
 /// For pictures with masks.
 ProgramSpec maskProgram();
 
@@ -29,9 +31,11 @@ public:
   /// \p Picture has four floats per pixel. The first three are compared with
   /// \p Target. \c gradient() is then dL/dpicture, three floats
   /// per pixel. Pixels with a 0 in \p Counts (if not empty) are black in both
-  /// pictures and excluded from means.
+  /// pictures and excluded from means. If \p Among is set, \c gradient() has
+  /// only the rows of this process.
   LossValues evaluate(const cl::Buffer &Picture, const Photo &Target,
-                      const std::vector<uint8_t> &Counts = {});
+                      const std::vector<uint8_t> &Counts = {},
+                      TileDivision *Among = nullptr);
   const cl::Buffer &gradient() const { return Gradient; }
   /// 0 for each pixel, because the loss does not depend on alpha.
   const cl::Buffer &alphaGradient() const { return NoAlpha; }
@@ -41,6 +45,7 @@ private:
 
   Launcher &Launch;
   double DSsim;
+  bool BuiltDivided = false;
   uint64_t Room = 0, TileRoom = 0;
   cl::Buffer Packed, Slopes, Totals, Gradient, NoAlpha, Masked;
   uint64_t MaskRoom = 0;

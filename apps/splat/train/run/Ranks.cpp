@@ -38,4 +38,12 @@ Expected<Success> Ranks::agree(const Expected<Success> &Mine) {
   return Success{};
 }
 
+bool Ranks::allSucceeded(Launcher &Launch) {
+  const auto All = agree(Launch.failure() ? Expected<Success>(*Launch.failure())
+                                          : Success{});
+  if (!All)
+    Launch.fail(All.error());
+  return static_cast<bool>(All);
+}
+
 } // namespace vorion::splat

@@ -1,6 +1,7 @@
 /// The processes of one training run, each with its own device.
 #pragma once
 
+#include "device/Launcher.h"
 #include "vorion/support/Expected.h"
 
 #include <memory>
@@ -28,6 +29,9 @@ public:
   /// that none waits for a failed process. The error names the process unless
   /// it is the first.
   Expected<Success> agree(const Expected<Success> &Mine);
+  /// Whether \p Launch has failed in no process. If it has in one, all have its
+  /// error.
+  bool allSucceeded(Launcher &Launch);
 };
 
 /// The only process.

@@ -57,7 +57,8 @@ Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
       Processes(Processes),
       Density(Launch, What.Settings, What.Seed, What.Extent),
       Mcmc(Launch, What.Settings, What.Seed),
-      Batch(Launch, Processes, Density, What.Batch), Where(MomentsAre) {}
+      Batch(Launch, Density, What.Batch), Share(Launch, Processes),
+      Where(MomentsAre) {}
 
 void Trainer::start(const Scene &From) {
   Launch.beginStage(Stage::Upload);
@@ -164,11 +165,12 @@ ViewBatch::ViewResult Trainer::lossOf(const cl::Buffer &Picture,
   const auto Pixels = static_cast<uint32_t>(Target.pixels());
   ViewBatch::ViewResult R;
   if (Exposed.areOn()) {
+    // An exposure's gradient is a sum over all pixels.
     R.Loss = Loss.evaluate(Exposed.apply(Picture, Pixels, View), Target,
                            Sized.Counts);
     R.ByExposure = Exposed.back(Picture, Loss.gradient(), Pixels, View);
   } else {
-    R.Loss = Loss.evaluate(Picture, Target, Sized.Counts);
+    R.Loss = Loss.evaluate(Picture, Target, Sized.Counts, Division);
   }
   R.Back =
       Renderer.backward(Loss.gradient(), Loss.alphaGradient(), depthsOf(Sized));
@@ -227,34 +229,23 @@ bool Trainer::isChangeDue() const {
                        resetsAt(Run.Settings, Done, Run.isWhite()));
 }
 
-/// Whether no process has failed; if one has, all have its error.
-bool Trainer::allSucceeded() {
-  const Expected<Success> Mine =
-      Launch.failure() ? Expected<Success>(*Launch.failure()) : Success{};
-  const auto All = Processes.agree(Mine);
-  if (!All)
-    Launch.fail(All.error());
-  return static_cast<bool>(All);
-}
-
-StepReport Trainer::step() {
+StepReport Trainer::step(bool Whole) {
   const TrainSettings &Settings = Run.Settings;
   StepReport R;
   R.Iteration = Done + 1;
   // A process that failed here would have other sizes than the others.
   if (isChangeDue()) {
     R.Density = changeDensity();
-    if (!allSucceeded())
+    if (!Processes.allSucceeded(Launch))
       return R;
   }
+  Division = Processes.size() == 1 || Whole ? nullptr : &Share;
+  if (!Renderer.divide(Division))
+    Division = nullptr;
   const int Degree = shDegreeAt(Settings, R.Iteration, State.ShDegree);
   Batch.begin(State, Degree, notesAt(Settings, R.Iteration));
-  while (!Batch.complete()) {
-    std::optional<ViewBatch::ViewResult> Mine;
-    if (Batch.next() < Run.Batch)
-      Mine = take(uint64_t{Done} * Run.Batch + Batch.next() + 1, Degree);
-    Batch.add(Mine ? &*Mine : nullptr);
-  }
+  while (!Batch.complete())
+    Batch.add(take(uint64_t{Done} * Run.Batch + Batch.next() + 1, Degree));
   R.Loss = Batch.loss();
   if (!std::isfinite(R.Loss.Value))
     Launch.fail({"",
@@ -275,7 +266,7 @@ StepReport Trainer::step() {
     Mcmc.addNoise(State, R.Iteration,
                   positionRate(Settings, R.Iteration) * Run.Extent *
                       Settings.NoiseRate);
-  if (!allSucceeded())
+  if (!Processes.allSucceeded(Launch))
     return R;
   Done = R.Iteration;
   Losses.push_back(static_cast<float>(R.Loss.Value));
@@ -299,6 +290,7 @@ Camera Trainer::pose(std::size_t View) const {
 
 Photo Trainer::render(const Camera &C) {
   const int Degree = shDegreeAt(Run.Settings, Done, State.ShDegree);
+  Renderer.divide(nullptr);
   if (Run.RandomBackground)
     Renderer.setBackground(Run.Background);
   const cl::Buffer Picture =

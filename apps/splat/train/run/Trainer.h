@@ -13,6 +13,7 @@
 #include "train/optimize/Pose.h"
 #include "train/run/Checkpoint.h"
 #include "train/run/Ranks.h"
+#include "train/run/TileShare.h"
 #include "train/run/ViewBatch.h"
 #include "train/settings/Settings.h"
 
@@ -83,7 +84,9 @@ public:
   /// Sets all members except \c Checkpoint::Run.
   Checkpoint save();
 
-  StepReport step();
+  /// \p Whole: each process renders whole pictures, so that its stages are
+  /// those of a run of one process.
+  StepReport step(bool Whole = false);
   unsigned iteration() const { return Done; }
   uint32_t gaussians() const { return State.Count; }
   const std::vector<float> &losses() const { return Losses; }
@@ -102,7 +105,6 @@ public:
 private:
   bool isChangeDue() const;
   std::optional<DensityChange> changeDensity();
-  bool allSucceeded();
   ViewBatch::ViewResult take(uint64_t Place, int ShDegree);
   /// Training view \p View at the size of the next iteration.
   const TrainView &sized(std::size_t View);
@@ -125,6 +127,9 @@ private:
   DensityControl Density;
   McmcControl Mcmc;
   ViewBatch Batch;
+  TileShare Share;
+  /// Of the pictures of this iteration; null: they are not divided.
+  TileDivision *Division = nullptr;
   const MomentsOn Where;
   DeviceScene State;
   /// Views that are divided by Shrink, as far as they have been needed.

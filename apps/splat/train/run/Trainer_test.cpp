@@ -1,5 +1,5 @@
-// The loop, with the reference as its renderer: what it does with gradients,
-// not how they are made.
+// The loop, mostly with the reference as its renderer: what it does with
+// gradients, not how they are made.
 #include "train/run/Trainer.h"
 
 #include "analyze/ToReference.h"
@@ -8,6 +8,7 @@
 #include "reference/Backward.h"
 #include "reference/Render.h"
 #include "render/Planes.h"
+#include "train/optimize/DeviceRenderer.h"
 #include "train/settings/SettingsTable.h"
 #include "train/testing/SmallScenes.h"
 
@@ -263,49 +264,84 @@ TEST_F(TrainerOnDevice, LearnsAndGoesOnFromACheckpointBitForBit) {
   }
 }
 
-/// Three views an iteration on one process, two and three: one renders two of
-/// them, or one each.
+/// Work of equal rows, of one long row among short ones, and of fewer rows than
+/// processes.
+TEST(TileShare, RowsAreDividedByTheirWork) {
+  using Rows = std::vector<uint32_t>;
+  EXPECT_EQ(balancedRows({5, 5, 5, 5}, 1), (Rows{0, 4}));
+  EXPECT_EQ(balancedRows({5, 5, 5, 5}, 2), (Rows{0, 2, 4}));
+  EXPECT_EQ(balancedRows({1, 1, 1, 1, 1, 1, 1, 1}, 3), (Rows{0, 3, 5, 8}));
+  EXPECT_EQ(balancedRows({9, 1, 1, 1}, 2), (Rows{0, 1, 4}));
+  EXPECT_EQ(balancedRows({1, 1, 1, 9}, 2), (Rows{0, 3, 4}));
+  const Rows Few = balancedRows({3, 3}, 5);
+  ASSERT_EQ(Few.size(), 6U);
+  EXPECT_EQ(Few.front(), 0U);
+  EXPECT_EQ(Few.back(), 2U);
+  EXPECT_TRUE(std::ranges::is_sorted(Few));
+}
+
+/// Processes divide seven rows of tiles and three of the loss; eight have more
+/// than there are rows.
 TEST_F(TrainerOnDevice, AnyNumberOfProcessesHasTheSameBits) {
-  TrainRun Run;
-  Run.Settings.DensifyAfter = 1;
-  Run.Settings.DensifyInterval = 3;
-  Run.Settings.DensifyGradient = 5e-3;
-  Run.Settings.ShInterval = 2;
-  Run.Settings.SizeInterval = 2;
-  Run.Settings.PositionRate = 1e-3;
-  Run.Extent = 3;
-  Run.Batch = 3;
-  const TrainingSet Set = picturesOf(blobs(12, 1));
-  const Scene Start = blobs(20, 2);
-  // By process; a run ends between two changes of density, notes being kept.
-  const auto Train = [&](unsigned Processes) {
-    std::vector<Checkpoint> Kept(Processes);
-    ThreadRanks::Room Room(Processes);
-    std::vector<std::thread> Threads;
-    for (unsigned Own = 0; Own < Processes; ++Own)
-      Threads.emplace_back([&, Own] {
-        Launcher Launch(*Dev, "", {});
-        build(Launch);
-        ReferenceRenderer R(Launch);
-        ThreadRanks Together(Room, Own);
-        Trainer T(Launch, R, Set, Run, Together);
-        T.start(Start);
-        for (int I = 0; I < 5; ++I)
-          T.step();
-        Kept[Own] = T.save();
-        EXPECT_FALSE(Launch.failure())
-            << Launch.failure()->What << Launch.buildLog();
-      });
-    for (std::thread &T : Threads)
-      T.join();
-    return Kept;
+  struct Case {
+    unsigned Batch;
+    Path Blending;
+    double ExposureRate, PoseRate;
+    std::vector<unsigned> Processes;
   };
-  const Checkpoint Alone = Train(1)[0];
-  EXPECT_GT(Alone.gaussians(), Start.size());
-  EXPECT_NE(std::ranges::count(Alone.Notes.Views, 6U), 0); // two iterations
-  for (const unsigned Processes : {2U, 3U})
-    for (const Checkpoint &C : Train(Processes))
-      expectSame(C, Alone);
+  const Scene Shown = blobs(12, 1), Start = blobs(20, 2);
+  TrainingSet Set;
+  for (int I = 0; I < 5; ++I) {
+    const Camera C = aroundOrigin(Camera::ahead(40, 100, 60), 0.25 * I, 0);
+    Set.Training.push_back({C, photographed(Shown, C), {}, {}});
+  }
+  for (std::size_t Pixel = 0; Pixel < 4000; ++Pixel)
+    Set.Training[1].Counts.push_back(Pixel % 40 < 25 ? 1 : 0);
+  for (const Case &K : {Case{1, Path::Raster, 0, 0, {2, 8}},
+                        Case{4, Path::Raster, 0.01, 1e-3, {2}},
+                        Case{3, Path::Simt, 0, 0, {3}}}) {
+    TrainRun Run;
+    Run.Settings.DensifyAfter = 1;
+    Run.Settings.DensifyInterval = 3;
+    Run.Settings.DensifyGradient = 5e-3;
+    Run.Settings.ShInterval = 2;
+    Run.Settings.SizeInterval = 2;
+    Run.Settings.PositionRate = 1e-3;
+    Run.Settings.ExposureRate = K.ExposureRate;
+    Run.Settings.PoseRate = K.PoseRate;
+    Run.Extent = 3;
+    Run.Batch = K.Batch;
+    // By process; a run ends between two changes of density, notes being kept.
+    const auto Train = [&](unsigned Processes) {
+      std::vector<Checkpoint> Kept(Processes);
+      ThreadRanks::Room Room(Processes);
+      std::vector<std::thread> Threads;
+      for (unsigned Own = 0; Own < Processes; ++Own)
+        Threads.emplace_back([&, Own] {
+          Launcher Launch(*Dev, "", {});
+          build(Launch, Set, Run.Settings);
+          BackwardOptions Backward;
+          Backward.Poses = K.PoseRate != 0;
+          DeviceRenderer R(Launch, Rules::Inria, K.Blending, Backward, {});
+          ThreadRanks Together(Room, Own);
+          Trainer T(Launch, R, Set, Run, Together);
+          T.start(Start);
+          for (int I = 0; I < 5; ++I)
+            T.step(I == 3);
+          Kept[Own] = T.save();
+          EXPECT_FALSE(Launch.failure())
+              << Launch.failure()->What << Launch.buildLog();
+        });
+      for (std::thread &T : Threads)
+        T.join();
+      return Kept;
+    };
+    const Checkpoint Alone = Train(1)[0];
+    EXPECT_GT(Alone.gaussians(), Start.size());
+    for (const unsigned Processes : K.Processes)
+      for (const Checkpoint &C : Train(Processes))
+        expectSame(C, Alone);
+  }
 }
 
 /// Moves, draws and steps too: on two processes as on one, and after going on

@@ -159,7 +159,7 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
         W.Request.TimeEvery &&
         isTimed(W.Request.Run.Seed, *W.Request.TimeEvery, T.iteration() + 1);
     Launch.setProfiled(Timed);
-    const StepReport Step = T.step();
+    const StepReport Step = T.step(Timed);
     std::vector<StageReport> Stages = Launch.takeStages();
     if (Step.Iteration == First + 1)
       FirstSeconds = secondsSince(Start);
@@ -415,6 +415,14 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
                             Ranks &Processes, bool &Ready, TrainOutcome &Out) {
   if (auto Checked = Host.Check(); !Checked)
     return Checked;
+  if (Processes.size() != 1 && R.Backward.Pixels != SimtSums::Ordered)
+    return Error{
+        "",
+        fmt::format("--simt-sums {}: {} processes divide the tiles of a "
+                    "picture, expected --simt-sums ordered, or one "
+                    "process",
+                    name(R.Backward.Pixels), Processes.size()),
+        ExitCode::Usage};
   const auto C = readCapture(R.Capture, R.Read);
   if (!C)
     return C.error();

@@ -4,8 +4,6 @@
 #include "picture/Layout.h"
 #include "render/Pipeline.h"
 
-#include <algorithm>
-
 namespace vorion::splat {
 
 namespace {
@@ -30,14 +28,6 @@ void ViewBatch::begin(const DeviceScene &Of, int ShDegree, bool Noting) {
   Sum = {};
 }
 
-void ViewBatch::add(const ViewResult *Mine) {
-  const unsigned Count = std::min(Processes.size(), Views - Added);
-  if (Processes.size() == 1)
-    addOwn(*Mine);
-  else
-    addShared(Mine, Count);
-}
-
 void ViewBatch::addGradients(const PlanePair &Of) {
   const bool First = Added == 0;
   if (First)
@@ -59,68 +49,21 @@ void ViewBatch::addGradients(const PlanePair &Of) {
   Add(Sum.Sh, Of.Sh, ShSize);
 }
 
-void ViewBatch::addOwn(const ViewResult &Mine) {
+void ViewBatch::add(const ViewResult &View) {
   if (Views == 1) {
-    Sum = Mine.Back.Gradients; // nothing to add up
+    Sum = View.Back.Gradients; // nothing to add up
   } else {
     Launch.beginStage(Stage::ViewsSum);
-    addGradients(Mine.Back.Gradients);
+    addGradients(View.Back.Gradients);
   }
   if (Notes) {
     Launch.beginStage(Stage::DensityControl);
-    Density.note(Mine.Back.Seen, Gaussians);
+    Density.note(View.Back.Seen, Gaussians);
   }
-  addTo(Losses, Mine.Loss);
-  Exposed.push_back(Mine.ByExposure);
-  Posed.push_back(Mine.ByPose);
+  addTo(Losses, View.Loss);
+  Exposed.push_back(View.ByExposure);
+  Posed.push_back(View.ByPose);
   ++Added;
-}
-
-void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
-  Launch.beginStage(Stage::ViewsSum);
-  // Sized alike in all processes whether or not the device failed in one.
-  std::vector<float> Geometry(GeometrySize), Sh(ShSize);
-  DensityNotes Of;
-  LossValues Loss;
-  ExposureMatrix ByExposure{};
-  PoseSlope ByPose{};
-  const PlanePair Uploaded{
-      Launch.allocate("gradients of a view", 4 * GeometrySize),
-      Launch.allocate("gradients of a view", 4 * ShSize)};
-  for (unsigned From = 0; From < Count; ++From, ++Added) {
-    if (Mine && From == Processes.rank()) {
-      Launch.read("gradients", Geometry.data(), Mine->Back.Gradients.Geometry,
-                  4 * GeometrySize);
-      Launch.read("gradients", Sh.data(), Mine->Back.Gradients.Sh, 4 * ShSize);
-      if (Notes)
-        Of = Density.noteAlone(Mine->Back.Seen, Gaussians);
-      Loss = Mine->Loss;
-      ByExposure = Mine->ByExposure;
-      ByPose = Mine->ByPose;
-    }
-    const auto Share = [&](auto &Values, std::size_t Size) {
-      Values.resize(Size);
-      Processes.share(From, Values.data(), 4 * Size);
-    };
-    Processes.share(From, &Loss, sizeof(Loss));
-    Processes.share(From, &ByExposure, sizeof(ByExposure));
-    Processes.share(From, &ByPose, sizeof(ByPose));
-    Share(Geometry, GeometrySize);
-    Share(Sh, ShSize);
-    Launch.write("gradients", Uploaded.Geometry, Geometry.data(),
-                 4 * GeometrySize);
-    Launch.write("gradients", Uploaded.Sh, Sh.data(), 4 * ShSize);
-    addGradients(Uploaded);
-    addTo(Losses, Loss);
-    Exposed.push_back(ByExposure);
-    Posed.push_back(ByPose);
-    if (Notes) {
-      Share(Of.GradientSums, Gaussians);
-      Share(Of.Views, Gaussians);
-      Share(Of.Radii, Gaussians);
-      Density.merge(Of);
-    }
-  }
 }
 
 LossValues ViewBatch::loss() const {

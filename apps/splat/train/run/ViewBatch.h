@@ -1,4 +1,4 @@
-/// Sums the results of the views of an iteration over all processes.
+/// Sums the results of the views of an iteration.
 #pragma once
 
 #include "train/optimize/Density.h"
@@ -6,19 +6,15 @@
 #include "train/optimize/GradientRenderer.h"
 #include "train/optimize/PictureLoss.h"
 #include "train/optimize/Pose.h"
-#include "train/run/Ranks.h"
 
 namespace vorion::splat {
 
-/// Views are added in a fixed order, so that results are bit-identical for any
-/// number of processes. Process r renders views r, r + size, ... The launcher
-/// keeps errors.
+/// Views are added in their order. The launcher keeps errors.
 class ViewBatch {
 public:
   /// \p Views is the number of views of an iteration.
-  ViewBatch(Launcher &Launch, Ranks &Processes, DensityControl &Control,
-            unsigned Views)
-      : Launch(Launch), Processes(Processes), Density(Control), Views(Views) {}
+  ViewBatch(Launcher &Launch, DensityControl &Control, unsigned Views)
+      : Launch(Launch), Density(Control), Views(Views) {}
 
   /// Starts an iteration with gradients of \p Of, whose bands up to \p ShDegree
   /// are in use. \p Notes: density control collects statistics.
@@ -26,8 +22,8 @@ public:
   /// Frees the gradients.
   void forget() { Sum = {}; }
   bool complete() const { return Added == Views; }
-  /// The next view of this process; \c Views or more: none.
-  unsigned next() const { return Added + Processes.rank(); }
+  /// The next view.
+  unsigned next() const { return Added; }
 
   struct ViewResult {
     LossValues Loss;
@@ -35,8 +31,7 @@ public:
     ExposureMatrix ByExposure = {};
     PoseSlope ByPose = {};
   };
-  /// Adds a view of each process; \p Mine is null if \c next() is none.
-  void add(const ViewResult *Mine);
+  void add(const ViewResult &View);
 
   /// \name Means over the views, once complete
   /// @{
@@ -48,12 +43,9 @@ public:
   /// @}
 
 private:
-  void addOwn(const ViewResult &Mine);
-  void addShared(const ViewResult *Mine, unsigned Count);
   void addGradients(const PlanePair &Of);
 
   Launcher &Launch;
-  Ranks &Processes;
   DensityControl &Density;
   unsigned Views;
 
