@@ -389,8 +389,8 @@ Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
   Out.Quats.resize(N, glm::dvec4(0));
   Out.Opacities.resize(N, 0);
   Out.Sh.resize(G.Sh.size(), glm::dvec3(0));
-  const auto Coefficients =
-      static_cast<std::size_t>((G.ShDegree + 1) * (G.ShDegree + 1));
+  const auto Bands = static_cast<std::size_t>(G.ShDegree) + 1;
+  const std::size_t Coefficients = Bands * Bands;
   for (std::size_t I = 0; I < N; ++I) {
     const RaySums &From = Sums[I];
     const double Far = C.Optics.Model->IsParallel
