@@ -3,6 +3,7 @@
 #pragma once
 
 #include "vorion/support/Hash.h"
+#include "vorion/support/SplitMix.h"
 
 #include <cmath>
 #include <cstdint>
@@ -36,14 +37,9 @@ inline double log(double X) {
 
 inline double pow(double X, double Y) { return exp(Y * log(X)); }
 
-/// The next of a sequence of uniform numbers from 0 to below 1, splitmix64.
+/// The next of a sequence of uniform numbers from 0 to below 1.
 inline double nextUniform(uint64_t &State) {
-  State += 0x9e3779b97f4a7c15;
-  uint64_t Z = State;
-  Z = (Z ^ (Z >> 30)) * 0xbf58476d1ce4e5b9;
-  Z = (Z ^ (Z >> 27)) * 0x94d049bb133111eb;
-  Z ^= Z >> 31;
-  return static_cast<double>(Z >> 11) * 0x1p-53;
+  return static_cast<double>(splitmix::next(State) >> 11) * 0x1p-53;
 }
 
 /// A draw of a normal distribution that depends on a name and a number alone:

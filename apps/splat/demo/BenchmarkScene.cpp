@@ -2,6 +2,7 @@
 
 #include "demo/PortableMath.h"
 #include "demo/ShFit.h"
+#include "vorion/support/SplitMix.h"
 
 #include <algorithm>
 #include <array>
@@ -17,32 +18,26 @@ namespace {
 
 using glm::dvec3;
 
-/// Even numbers from 0 to 1 that follow from what they are for: a stream for
-/// each Gaussian.
+/// Uniform random numbers from 0 to 1, a stream for each Gaussian.
 class Draw {
 public:
-  Draw(uint64_t A, uint64_t B) : State(mix(mix(A + Step) ^ (B * Step))) {}
+  Draw(uint64_t A, uint64_t B)
+      : State(splitmix::mix(splitmix::mix(A + splitmix::Step) ^
+                            (B * splitmix::Step))) {}
 
-  double even() {
-    State += Step;
-    return (static_cast<double>(mix(State) >> 11) + 0.5) * 0x1p-53;
+  double uniform() {
+    return (static_cast<double>(splitmix::next(State) >> 11) + 0.5) * 0x1p-53;
   }
-  /// Nearly normal: the sum of four, of deviation 1 and at most 3.5.
+  /// Nearly normal: the sum of four uniform numbers, of standard deviation 1
+  /// and at most 3.5.
   double normal() {
     double Sum = 0; // one after the other: the order of operands is open
     for (int N = 0; N != 4; ++N)
-      Sum += even();
+      Sum += uniform();
     return (Sum - 2) * std::numbers::sqrt3;
   }
 
 private:
-  static constexpr uint64_t Step = 0x9E3779B97F4A7C15;
-  /// SplitMix64's finalizer.
-  static uint64_t mix(uint64_t X) {
-    X = (X ^ (X >> 30)) * 0xBF58476D1CE4E5B9;
-    X = (X ^ (X >> 27)) * 0x94D049BB133111EB;
-    return X ^ (X >> 31);
-  }
   uint64_t State;
 };
 
@@ -142,20 +137,20 @@ dvec3 colorOf(const Part &P, const Part::Point &At, uint64_t Cell, Draw &D) {
     Albedo *= Odd(9 * (X.x + X.y)) ? 0.7 : 1.05;
     break;
   case Texture::Ground:
-    Albedo *= 0.65 + 0.7 * D.even();
+    Albedo *= 0.65 + 0.7 * D.uniform();
     break;
   case Texture::Leaves:
-    Albedo *= 0.4 + 1.1 * D.even();
+    Albedo *= 0.4 + 1.1 * D.uniform();
     break;
   case Texture::Colors: {
     Draw Hue(Cell, 3);
-    Albedo = dvec3{Hue.even(), Hue.even(), Hue.even()} * 0.7 + 0.08;
+    Albedo = dvec3{Hue.uniform(), Hue.uniform(), Hue.uniform()} * 0.7 + 0.08;
     break;
   }
   }
   const double Lit = std::max(0.0, glm::dot(At.Normal, Sun));
   const double Sky = 0.45 + 0.15 * At.Normal.y;
-  return toDisplay(Albedo * (0.9 * Lit + Sky) * (0.94 + 0.12 * D.even()));
+  return toDisplay(Albedo * (0.9 * Lit + Sky) * (0.94 + 0.12 * D.uniform()));
 }
 
 /// Gaussian \p I of \p S: a soft highlight where a view sees the sun mirrored.
@@ -179,18 +174,18 @@ void setColor(Scene &S, std::size_t I, const dvec3 &Color, const dvec3 &N) {
 void setGaussian(Scene &S, std::size_t I, const Cell &C, int64_t K,
                  double Count, const BenchmarkShape &Shape) {
   Draw D(C.Id, 16 + static_cast<uint64_t>(K));
-  // Places by the additive recurrence of the plastic number: even, but in no
-  // rows.
+  // Places by the additive recurrence of the plastic number: evenly spread,
+  // but not in rows.
   const auto Fraction = [](double V) { return V - std::floor(V); };
   Draw Start(C.Id, 4);
   const double Index = static_cast<double>(K);
-  const double U = Fraction(Start.even() + 0.7548776662466927 * Index),
-               V = Fraction(Start.even() + 0.5698402909980532 * Index);
+  const double U = Fraction(Start.uniform() + 0.7548776662466927 * Index),
+               V = Fraction(Start.uniform() + 0.5698402909980532 * Index);
   Part::Point At = C.Of->at(C.S + U * C.Width, C.T + V * C.Height);
   const double Spacing = std::sqrt(C.Area / Count);
   if (C.Of->Shape == Part::Form::Crown) {
     // A leaf, turned anyhow, from the outside on inwards.
-    const double In = D.even();
+    const double In = D.uniform();
     At.Position =
         C.Of->Origin + (At.Position - C.Of->Origin) * (1 - 0.4 * In * In);
     At.Normal = glm::normalize(At.Normal +
@@ -201,12 +196,12 @@ void setGaussian(Scene &S, std::size_t I, const Cell &C, int64_t K,
   double LogSize =
       portableLog(C.Size * Spacing) + Shape.SizeSpread * D.normal();
   const double Stretch = std::abs(Shape.Stretch * D.normal());
-  if (D.even() < Shape.Large)
+  if (D.uniform() < Shape.Large)
     LogSize += portableLog(Shape.LargeSize);
   const double Opacity =
-      D.even() < C.Opaque
+      D.uniform() < C.Opaque
           ? 0.99
-          : std::clamp(Shape.Most * portablePower(D.even(), C.Faint), 0.005,
+          : std::clamp(Shape.Most * portablePower(D.uniform(), C.Faint), 0.005,
                        0.99);
   constexpr double LogFlat = -2; // of the deviation across the surface
   const std::array<double, 3> LogScales = {LogSize, LogSize - Stretch,
@@ -216,7 +211,7 @@ void setGaussian(Scene &S, std::size_t I, const Cell &C, int64_t K,
       std::abs(At.Normal.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
   const dvec3 A = glm::normalize(glm::cross(Helper, At.Normal)),
               B = glm::cross(At.Normal, A);
-  const auto [Co, Si] = portableCosSin(D.even());
+  const auto [Co, Si] = portableCosSin(D.uniform());
   const dvec3 Long = Co * A + Si * B;
   const glm::dquat Q =
       glm::quat_cast(glm::dmat3(Long, glm::cross(At.Normal, Long), At.Normal));

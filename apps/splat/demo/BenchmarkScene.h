@@ -12,11 +12,11 @@ namespace vorion::splat::demo {
 struct BenchmarkShape {
   double Distance;      ///< of the first view's camera, as a factor
   double Second, Third; ///< of the others' cameras
-  double Behind;  ///< Gaussians an area of what others hide; 0: it is not there
-  double Nowhere; ///< the same of what no view shows
-  double Back;    ///< the same of what faces away from the first view
-  double Fading;  ///< power by which they get fewer away from the subject
-  double Clumps;  ///< spread of their number an area
+  double Behind;  ///< density of Gaussians on hidden parts; 0: no such parts
+  double Nowhere; ///< the same of parts that no view shows
+  double Back;    ///< the same of surfaces that face away from the first view
+  double Fading;  ///< exponent of the falloff of density away from the subject
+  double Clumps;  ///< spread of the number of Gaussians per area
   double Size;    ///< larger deviation, median, in spacings of neighbours
   double SizeSpread;  ///< its spread within a block of cells
   double BlockSize;   ///< its spread between blocks
@@ -27,8 +27,8 @@ struct BenchmarkShape {
   double Opaque;      ///< share of opacity 0.99
   double BlockOpaque; ///< spread of that between blocks
   double Most;        ///< largest opacity of the others
-  double Faint;       ///< power of an even number that, times that, is theirs
-  double BlockFaint;  ///< spread of that between blocks
+  double Faint; ///< their opacity: Most times a uniform number to this power
+  double BlockFaint; ///< spread of that between blocks
 
   std::array<double, 3> distances() const { return {Distance, Second, Third}; }
 };
@@ -36,9 +36,9 @@ struct BenchmarkShape {
 /// The fitted one for about so many Gaussians.
 const BenchmarkShape &benchmarkShape(BenchmarkKind K, int Gaussians);
 
-/// Exactly \p Gaussians of degree 3, at least 1000: the same bits on every
-/// host. \p Seed: other random numbers, of which the set has the first; below
-/// 1000.
+/// A scene of exactly \p Gaussians (at least 1000) of degree 3, bit-identical
+/// on every host. \p Seed selects the random numbers, below 1000; the scenes of
+/// the set have seed 0.
 Scene makeBenchmark(BenchmarkKind K, const BenchmarkShape &Shape, int Gaussians,
                     unsigned Seed = 0);
 

@@ -85,7 +85,7 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Drawn, const Photo &Target,
                                            .pixels = Pixels});
   }
   const double Samples = 3.0 * Counted;
-  // The gradient of a row needs slopes of those that its windows cover.
+  // The gradient of a row needs the slopes of all rows in its windows.
   TileDivision::PixelRows Own{0, Height}, Around = Own;
   if (Among) {
     Own = Among->ownRows();
