@@ -16,7 +16,8 @@ from writing import paragraph
 # Factors by which the draws are split, with what a level is called.
 SPLIT = {"method.baseline": {"fastest": "our fastest kernels", "official": "the official algorithm"},
          "machine.core": {core: f"`{core}`" for core in ("vortex-5stage", "forwarding")},
-         "method.pipeline": {"serial": "serial", "overlapped": "overlapped"}}
+         "method.pipeline": {"serial": "serial", "overlapped": "overlapped"},
+         "core.interleaved_stacks": {"0": "a lane's stack in a row", "1": "interleaved stacks"}}
 
 
 def splits(data):
@@ -25,7 +26,7 @@ def splits(data):
     for claim, _ in claims.of_draws(data):
         for factor, levels in SPLIT.items():
             for level in levels:
-                values = [row["figures"][claim.key] for row in data["rows"] if claim.key in row["figures"] and row["factors"][factor] == level]
+                values = [row["figures"][claim.key] for row in data["rows"] if claim.key in row["figures"] and str(row["factors"][factor]) == level]
                 found.setdefault(claim.key, {}).setdefault(factor, {})[level] = [sum(map(claim.good, values)), len(values)]
     return found
 
