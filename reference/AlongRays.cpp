@@ -35,16 +35,20 @@ double throughInverse(const glm::dvec3 &M, double Det, const glm::dvec2 &V) {
   return (M[2] * V.x * V.x - 2 * M[1] * V.x * V.y + M[0] * V.y * V.y) / Det;
 }
 
-/// Whether \p B is densest in front of where the ray \p R begins, \p From being
-/// the mean from there.
-bool isAhead(const Body &B, const PixelRay &R, const glm::dvec3 &From) {
-  // t = r' S m / r' S r with the inverse covariance S: its sign is that of the
-  // numerator times the squares of all deviations.
-  double Sum = 0;
-  for (int K = 0; K < 3; ++K)
-    Sum += glm::dot(B.Turn[K], R.Direction) * glm::dot(B.Turn[K], From) *
-           B.Squares[(K + 1) % 3] * B.Squares[(K + 2) % 3];
-  return Sum >= 0;
+/// How far in front of where the ray \p R begins \p B is densest, \p From being
+/// the mean from there: the cosine of the angle between the ray and the mean in
+/// standard deviations.
+double ahead(const Body &B, const PixelRay &R, const glm::dvec3 &From) {
+  // Vectors are those times the product of all deviations.
+  glm::dvec3 D, M;
+  for (int K = 0; K < 3; ++K) {
+    const double Others =
+        std::sqrt(B.Squares[(K + 1) % 3]) * std::sqrt(B.Squares[(K + 2) % 3]);
+    D[K] = Others * glm::dot(B.Turn[K], R.Direction);
+    M[K] = Others * glm::dot(B.Turn[K], From);
+  }
+  const double Lengths = glm::length(D) * glm::length(M);
+  return Lengths > 0 ? glm::dot(D, M) / Lengths : 0;
 }
 
 /// Rays beside each other, of which a body that is far from the first is far
@@ -161,19 +165,21 @@ private:
     const double Across = glm::dot(From, From) - Along * Along;
     if (!(Across <= B.Deviation * (B.Widest + Blur * Far * Far)))
       return;
+    const double Ahead = C.Optics.Model->IsParallel ? 1 : ahead(B, R, From);
+    if (Ahead < -DoubtBand)
+      return;
     if (const double Wanted = wanted(B, G.Opacities[I], R, From, Far);
         Wanted >= leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand))
       List.push_back({By == RayDepths::Own    ? Depth
                       : C.Optics.byDistance() ? glm::length(B.Mean)
                                               : B.Mean.z,
-                      static_cast<int32_t>(I), Wanted});
+                      static_cast<int32_t>(I), Ahead < 0 ? 0 : Wanted,
+                      Ahead <= DoubtBand});
   }
 
   /// Before the clamp.
   double wanted(const Body &B, double Opacity, const PixelRay &R,
                 const glm::dvec3 &From, double Far) const {
-    if (!C.Optics.Model->IsParallel && !isAhead(B, R, From))
-      return 0;
     // The rows take away what is along the ray. What they leave of the mean and
     // the covariance is on the picture, where the density's largest value on
     // the ray is that of the shadow.
@@ -285,7 +291,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
         for (const Seen &S : Lists[Ray]) {
           ++Walked;
           const double Alpha = std::min(mostAlpha<double>(), S.Alpha);
-          if (near(Alpha, LeastAlpha))
+          if (near(Alpha, LeastAlpha) || S.IsAtOrigin)
             P.Doubts[At] |= DoubtThreshold;
           if (Alpha < LeastAlpha)
             continue;

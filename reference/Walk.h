@@ -127,6 +127,9 @@ struct Seen {
   double Depth;
   int32_t Index;
   double Alpha;
+  /// Whether it is densest so near the ray's origin that fp32 may see that on
+  /// the other side.
+  bool IsAtOrigin = false;
   bool operator<(const Seen &Other) const {
     return std::pair(Depth, Index) < std::pair(Other.Depth, Other.Index);
   }

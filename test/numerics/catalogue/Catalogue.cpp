@@ -18,6 +18,7 @@ std::vector<HardCase> catalogue() {
 std::vector<TrainingCase> trainingCases() {
   std::vector<TrainingCase> Cases;
   addRayOrders(Cases);
+  addRays(Cases);
   addMeshes(Cases);
   addGradients(Cases);
   addMethodGradients(Cases);

@@ -5,6 +5,7 @@
 #include "Gradients.h"
 #include "Judge.h"
 #include "io/Metrics.h"
+#include "reference/AlongRays.h"
 #include "render/Gradients.h"
 
 #include <algorithm>
@@ -21,13 +22,14 @@ struct Loss {
   reference::Upstream Reference;
 };
 
-Loss lossFor(const std::vector<uint8_t> &Doubts) {
+/// Of pixels with none of the doubts \p Counted.
+Loss lossFor(const std::vector<uint8_t> &Doubts, int Counted) {
   Loss Out;
   Numbers R(77);
   for (const uint8_t Doubt : Doubts) {
     float V[4];
     for (float &X : V)
-      X = Doubt == 0 ? static_cast<float>(R.uniform(-1, 1)) : 0;
+      X = (Doubt & Counted) == 0 ? static_cast<float>(R.uniform(-1, 1)) : 0;
     Out.Device.Render.insert(Out.Device.Render.end(), V, V + 3);
     Out.Device.Alpha.push_back(V[3]);
     Out.Reference.Render.emplace_back(V[0], V[1], V[2]);
@@ -54,20 +56,23 @@ std::vector<Kind> kindsOf(const splat::SceneGradients &Got,
       return All[I][static_cast<int>(K)];
     };
   };
-  return {{"mean", Got.Means, 3, Part(Want.Means)},
-          {"scale", Got.Scales, 3, Part(Want.Scales)},
-          {"quaternion", Got.Quats, 4,
-           [&](std::size_t I, std::size_t K) {
-             return Want.Quats[I][static_cast<int>(K)] / Lengths[I];
-           }},
-          {"opacity", Got.Opacities, 1,
-           [&](std::size_t I, std::size_t) { return Want.Opacities[I]; }},
-          {"projected mean", Got.Means2d, 2, Part(Want.Means2d)},
-          {"conic", Got.Conics, 3, Part(Want.Conics)},
-          {"colour", Got.Sh, 3 * Coefficients,
-           [&, Coefficients](std::size_t I, std::size_t K) {
-             return Want.Sh[Coefficients * I + K / 3][static_cast<int>(K % 3)];
-           }}};
+  std::vector<Kind> Kinds{
+      {"mean", Got.Means, 3, Part(Want.Means)},
+      {"scale", Got.Scales, 3, Part(Want.Scales)},
+      {"quaternion", Got.Quats, 4,
+       [&](std::size_t I, std::size_t K) {
+         return Want.Quats[I][static_cast<int>(K)] / Lengths[I];
+       }},
+      {"opacity", Got.Opacities, 1,
+       [&](std::size_t I, std::size_t) { return Want.Opacities[I]; }},
+      {"projected mean", Got.Means2d, 2, Part(Want.Means2d)},
+      {"colour", Got.Sh, 3 * Coefficients,
+       [&, Coefficients](std::size_t I, std::size_t K) {
+         return Want.Sh[Coefficients * I + K / 3][static_cast<int>(K % 3)];
+       }}};
+  if (!Want.Conics.empty()) // those of footprints
+    Kinds.push_back({"conic", Got.Conics, 3, Part(Want.Conics)});
+  return Kinds;
 }
 
 } // namespace
@@ -88,10 +93,17 @@ Expected<Finding> judgeGradients(splat::Launcher &L, const Way &W,
   const reference::Options Rules = referenceOptions(O);
   const auto G = splat::toReference<double>(Drawn);
   const auto View = splat::toReference<double>(S.View);
-  const auto Picture = reference::blend(reference::project(G, View, Rules),
-                                        View.Width, View.Height, Rules);
-  const Loss Given = lossFor(Picture.Doubts);
-  const auto Want = reference::renderBackward(G, View, Given.Reference, Rules);
+  const bool IsAlongRays = O.Kind == splat::RendererKind::Ray;
+  const auto Picture =
+      IsAlongRays ? reference::renderAlongRays(G, View, Rules)
+                  : reference::blend(reference::project(G, View, Rules),
+                                     View.Width, View.Height, Rules);
+  const Loss Given =
+      lossFor(Picture.Doubts, S.AreTied ? ~reference::DoubtOrder : ~0);
+  const auto Want =
+      IsAlongRays
+          ? reference::alongRaysBackward(G, View, Given.Reference, Rules)
+          : reference::renderBackward(G, View, Given.Reference, Rules);
 
   splat::BackwardOptions Back;
   Back.Pixels = W.Sums;

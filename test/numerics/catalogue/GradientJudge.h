@@ -18,6 +18,8 @@ struct GradientScene {
   /// the device alike.
   // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
   std::optional<std::size_t> Silent{};
+  /// Depths are equal to the bit: no order is doubtful.
+  bool AreTied = false;
 };
 
 /// Largest relative difference in the L2 norm of any kind of gradient

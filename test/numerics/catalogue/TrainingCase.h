@@ -84,6 +84,7 @@ std::vector<TrainingCase> trainingCases();
 /// \name Parts of \c trainingCases
 /// @{
 void addRayOrders(std::vector<TrainingCase> &Cases);
+void addRays(std::vector<TrainingCase> &Cases);
 void addGradients(std::vector<TrainingCase> &Cases);
 void addSteps(std::vector<TrainingCase> &Cases);
 void addDensity(std::vector<TrainingCase> &Cases);
