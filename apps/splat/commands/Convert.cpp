@@ -45,7 +45,8 @@ void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
   if (!W.KeepsDrawing)
     printDiagnostic("splat", "warning", Path,
                     fmt::format("the format does not record the rendering "
-                                "mode, expected {}{} when rendering it",
+                                "mode, expected {}{}{} when rendering it",
+                                D.AlongRays ? "--renderer ray" : "",
                                 D.Antialiased ? "--antialiased" : "",
                                 D.Dilation
                                     ? fmt::format(" --dilation {}", *D.Dilation)
@@ -120,8 +121,9 @@ Expected<Success> joinOthers(const SceneArguments &First,
       return Read.error();
     if (!Read->DrawnAs.drawsAs(To.DrawnAs))
       return Error{Path, "has another rendering mode than the preceding scenes "
-                         "(antialiased, dilation), expected --antialiased or "
-                         "--no-antialiased, and --dilation, for all"};
+                         "(antialiased, dilation, along rays), expected "
+                         "--antialiased or --no-antialiased, and --dilation, "
+                         "for all"};
     To.Dropped += Read->Dropped;
     if (Meshes && Read->Meshes > 0)
       if (auto Joined = joinMesh(First, Path, *Meshes); !Joined)

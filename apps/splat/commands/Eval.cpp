@@ -122,7 +122,9 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
-  drawAs(A.Options, File->DrawnAs);
+  drawByFile(A.Options, File->DrawnAs);
+  if (auto Checked = checkRenderer(A.Options, A.Scene.Options.Drawn); !Checked)
+    return Checked;
   const auto C = readCapture(A.Capture, A.Read);
   if (!C)
     return C.error();
@@ -233,7 +235,7 @@ Runner addEval(CLI::App &App) {
   addPageOptions(App, A->Page,
                  "Write a page with these pictures and their scores");
   addDrawOptions(App, *A);
-  addRendererOption(App, A->Options.Kind);
+  addRendererOption(App, A->Options.Kind, A->Scene.Options.Drawn);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {

@@ -148,7 +148,11 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
-  drawAs(A.Options, File->DrawnAs);
+  drawByFile(A.Options, File->DrawnAs);
+  for (const auto &Checked : {checkGradientOptions(A.Options, A.Backward),
+                              checkRenderer(A.Options, A.Scene.Options.Drawn)})
+    if (!Checked)
+      return Checked;
   const auto All = readCameras(A.Cameras);
   if (!All)
     return All.error();
@@ -232,7 +236,7 @@ Runner addGradients(CLI::App &App) {
                "Report the modelled time of the forward and backward pass "
                "(docs/model.md)");
   addGradientOptions(App, A->Options, A->Backward);
-  addRendererOption(App, A->Options.Kind);
+  addRendererOption(App, A->Options.Kind, A->Scene.Options.Drawn);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {

@@ -334,6 +334,27 @@ void addRendererOption(CLI::App &App, RendererKind &Kind) {
             "it is densest on each pixel's ray (docs/cameras.md)");
 }
 
+void addRendererOption(CLI::App &App, RendererKind &Kind,
+                       DrawingRequest &Drawn) {
+  addRendererOption(App, Kind);
+  App.get_option("--renderer")->each([&Drawn](const std::string &Chosen) {
+    Drawn.AlongRays = Chosen == name(RendererKind::Ray);
+  });
+}
+
+void drawByFile(RenderOptions &O, const Drawing &D) {
+  if (D.AlongRays)
+    O.Kind = RendererKind::Ray;
+  drawAs(O, D);
+}
+
+void warnOfRays(const Drawing &D, const std::string &Path) {
+  if (D.AlongRays)
+    printDiagnostic("splat", "warning", Path,
+                    "was trained along rays, and is drawn as footprints: splat "
+                    "render draws it along rays");
+}
+
 Expected<Success> excludedByRays(std::string_view Option) {
   return usage(fmt::format("--renderer ray excludes {}, expected --renderer "
                            "splat",
@@ -364,7 +385,7 @@ Expected<Success> checkRays(const RenderOptions &O,
     return Success{};
   return Error{Cameras,
                fmt::format("--renderer ray: a camera of model {}{}, expected a "
-                           "pinhole or parallel rays",
+                           "pinhole or parallel rays, or --renderer splat",
                            O.Optics->Name,
                            O.Rolling ? " with a rolling shutter" : "")};
 }

@@ -102,6 +102,16 @@ Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
 
 /// Declares --renderer.
 void addRendererOption(CLI::App &App, RendererKind &Kind);
+/// The same, for scenes whose files may name one: notes in \p Drawn that it is
+/// given.
+void addRendererOption(CLI::App &App, RendererKind &Kind,
+                       DrawingRequest &Drawn);
+
+/// drawAs(), with the renderer that \p D names.
+void drawByFile(RenderOptions &O, const Drawing &D);
+
+/// Says that a scene \p Path trained along rays is drawn as footprints.
+void warnOfRays(const Drawing &D, const std::string &Path);
 
 /// The usage error that \p Option is of footprints.
 Expected<Success> excludedByRays(std::string_view Option);

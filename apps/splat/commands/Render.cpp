@@ -441,7 +441,9 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return AddedMesh.error();
   A.Options.Light = A.Mesh.Light;
   A.Options.KeepVisible = !A.Visible.empty();
-  drawAs(A.Options, File->DrawnAs);
+  drawByFile(A.Options, File->DrawnAs);
+  if (auto Checked = checkRenderer(A); !Checked)
+    return Checked;
   const Scene *S = &File->Gaussians;
   const auto Cameras =
       camerasToDraw(A.Cameras, *File, A.Options.Convention, A.Options.Near);
@@ -607,7 +609,7 @@ Runner addRender(CLI::App &App) {
       "Write a page with the breakdown of the frame time (implies --time)");
   addDrawOptions(App, *A);
   Group.next("Picture");
-  addRendererOption(App, A->Options.Kind);
+  addRendererOption(App, A->Options.Kind, A->Scene.Options.Drawn);
   Group.next("Accuracy and speed");
   App.add_flag("--overlap", A->Overlap,
                "With several pictures, overlap the preparation of one with the "

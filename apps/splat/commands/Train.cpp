@@ -81,7 +81,8 @@ Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
     return Report.error();
   if (auto Written = writePly(
           A.Output, Out.Result,
-          {A.Trained.Request.Run.Antialiased, std::nullopt, "--antialiased"});
+          {A.Trained.Request.Run.Antialiased, std::nullopt, "--antialiased",
+           A.Trained.Request.Run.Kind == RendererKind::Ray});
       !Written)
     return Written;
   if (auto Written = writeTrainPictures(A.Pictures, A.Output, Out, *Report);
@@ -110,7 +111,7 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
     printOut("projection   unscented: eval and render need --projection "
              "unscented, too\n");
   if (R.Run.Kind == RendererKind::Ray)
-    printOut("renderer     ray: eval and render need --renderer ray, too\n");
+    printOut("renderer     ray, which the scene's file says\n");
   if (Out.Near)
     printOut("near plane   at depth {:g}: render from other distances needs "
              "--near {:g}, too\n",

@@ -2,6 +2,7 @@
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
 #include "commands/MeshArguments.h"
+#include "commands/PictureOptions.h"
 #include "commands/SceneArguments.h"
 #include "io/Cameras.h"
 #include "picture/SceneUnit.h"
@@ -72,6 +73,7 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
+  warnOfRays(File->DrawnAs, A.Scene.Path);
   const auto OwnMesh = loadOwnMesh(A.Scene, *File);
   if (!OwnMesh)
     return OwnMesh.error();

@@ -13,6 +13,7 @@ namespace {
 constexpr std::string_view ModeKey = "splatrendermode:";
 constexpr std::string_view FlagKey = "antialiased ";
 constexpr std::string_view DilationKey = "dilation:";
+constexpr std::string_view RendererKey = "splatrenderer:";
 /// What Brush dilates by where it compensates, as Mip-Splatting does.
 constexpr double BrushDilation = 0.1;
 
@@ -62,6 +63,10 @@ std::optional<Error> take(const std::string &Where, std::string_view Comment,
     if (Status != std::errc() || End != Value->end() || !isDilation(Dilation))
       return unknown(Where, Source(), ExpectedDilation);
     D.Dilation = Dilation;
+  } else if (const auto Renderer = after(RendererKey, Lower)) {
+    if (*Renderer != "splat" && *Renderer != "ray")
+      return unknown(Where, Source(), "SplatRenderer: splat or ray");
+    D.AlongRays = *Renderer == "ray";
   }
   return std::nullopt;
 }
@@ -115,11 +120,14 @@ Drawing withRequest(Drawing D, const DrawingRequest &R) {
   }
   if (R.Dilation)
     D.Dilation = R.Dilation;
+  D.AlongRays = R.AlongRays.value_or(D.AlongRays);
   return D;
 }
 
 std::string drawingComments(const Drawing &D) {
   std::string Lines;
+  if (D.AlongRays)
+    Lines += "comment SplatRenderer: ray\n";
   if (D.Antialiased)
     Lines += "comment SplatRenderMode: mip\n";
   if (D.Dilation)

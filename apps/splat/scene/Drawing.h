@@ -19,10 +19,14 @@ struct Drawing {
   /// What says so, for people, as "comment SplatRenderMode: mip"; empty if the
   /// file records nothing, which means the classic mode.
   std::string Source;
+  /// Where it is densest on each pixel's ray, not as a footprint; then the
+  /// other members do not apply.
+  bool AlongRays = false;
 
   /// Whether both give the same picture.
   bool drawsAs(const Drawing &Other) const {
-    return Antialiased == Other.Antialiased && Dilation == Other.Dilation;
+    return Antialiased == Other.Antialiased && Dilation == Other.Dilation &&
+           AlongRays == Other.AlongRays;
   }
 };
 
@@ -35,6 +39,8 @@ inline constexpr std::string_view ExpectedDilation =
 struct DrawingRequest {
   std::optional<bool> Antialiased;
   std::optional<double> Dilation;
+  // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
+  std::optional<bool> AlongRays{};
 };
 Drawing withRequest(Drawing D, const DrawingRequest &R);
 
@@ -43,8 +49,9 @@ Drawing withRequest(Drawing D, const DrawingRequest &R);
 /// - `SplatRenderMode: default|mip` (Brush, splat-transform). A file that also
 ///   says `Exported from Brush` has Brush's dilation for it, 0.1;
 /// - `antialiased 0|1` (Postshot);
-/// - `Dilation: PX2`, which drawingComments() writes.
-/// Errors: 2D Gaussians, unknown modes.
+/// - `Dilation: PX2` and `SplatRenderer: splat|ray`, which drawingComments()
+///   writes.
+/// Errors: 2D Gaussians, unknown modes and renderers.
 Expected<Drawing> drawingOfComments(const std::string &Where,
                                     std::span<const std::string> Comments);
 

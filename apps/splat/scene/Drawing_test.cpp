@@ -71,6 +71,18 @@ TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
   EXPECT_FALSE(of({" Dilation: -1"}));
 }
 
+TEST(Drawing, TheRendererIsKeptAndOthersAreRefused) {
+  const auto Ray = of({" SplatRenderer: ray"});
+  ASSERT_TRUE(Ray);
+  EXPECT_TRUE(Ray->AlongRays);
+  EXPECT_EQ(drawingComments(*Ray), "comment SplatRenderer: ray\n");
+  EXPECT_FALSE(Ray->drawsAs(*of({" SplatRenderer: splat"})));
+  EXPECT_TRUE(of({})->drawsAs(*of({" splatrenderer: SPLAT"})));
+  EXPECT_FALSE(withRequest(*Ray, {{}, {}, false}).AlongRays);
+  EXPECT_TRUE(withRequest({}, {{}, {}, true}).AlongRays);
+  EXPECT_FALSE(of({" SplatRenderer: traced"}));
+}
+
 TEST(Drawing, ADilationThatNoFloatHoldsIsRefused) {
   for (const char *Comment :
        {" Dilation: 1e39", " Dilation: 3.41e38", " Dilation: inf",
