@@ -51,6 +51,26 @@ double ahead(const Body &B, const PixelRay &R, const glm::dvec3 &From) {
   return Lengths > 0 ? glm::dot(D, M) / Lengths : 0;
 }
 
+/// How a ray meets a body: the body's deviations from it, squared, and how far
+/// along it the density is largest. No component is divided by a scale.
+struct Meeting {
+  double Square, Along;
+};
+
+Meeting meet(const Body &B, const PixelRay &R, const glm::dvec3 &From) {
+  const glm::dvec3 Beside = glm::cross(From, R.Direction);
+  double Across = 0, Both = 0, Ahead = 0;
+  for (int K = 0; K < 3; ++K) {
+    const double Others = B.Squares[(K + 1) % 3] * B.Squares[(K + 2) % 3];
+    const double Along = glm::dot(B.Turn[K], R.Direction);
+    const double Off = glm::dot(B.Turn[K], Beside);
+    Across += B.Squares[K] * Off * Off;
+    Both += Others * Along * glm::dot(B.Turn[K], From);
+    Ahead += Others * Along * Along;
+  }
+  return {Across / Ahead, Both / Ahead};
+}
+
 /// Rays beside each other, of which a body that is far from the first is far
 /// from all.
 struct Bundle {
@@ -156,6 +176,8 @@ private:
            std::vector<Seen> &List) const {
     const Body &B = Bodies[I];
     const glm::dvec3 From = B.Mean - R.Origin;
+    if (By == RayDepths::Ray)
+      return seeAlong(I, R, From, List);
     const double Depth =
         C.Optics.byDistance() ? glm::length(From) : glm::dot(R.Ahead, From);
     if (!inFront(Depth, O))
@@ -175,6 +197,21 @@ private:
                                               : B.Mean.z,
                       static_cast<int32_t>(I), Ahead < 0 ? 0 : Wanted,
                       Ahead <= DoubtBand});
+  }
+
+  void seeAlong(std::size_t I, const PixelRay &R, const glm::dvec3 &From,
+                std::vector<Seen> &List) const {
+    const Meeting M = meet(Bodies[I], R, From);
+    const double Depth = C.Optics.byDistance()
+                             ? M.Along
+                             : M.Along * glm::dot(R.Ahead, R.Direction);
+    const double Wanted = G.Opacities[I] * std::exp(-0.5 * M.Square);
+    const bool IsSeen = inFront(Depth, O),
+               IsAtOrigin = near(Depth, nearLimit(O));
+    if ((IsSeen || IsAtOrigin) &&
+        Wanted >= leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand))
+      List.push_back(
+          {Depth, static_cast<int32_t>(I), IsSeen ? Wanted : 0, IsAtOrigin});
   }
 
   /// Before the clamp.
@@ -257,6 +294,7 @@ struct RaySums {
 Picture<double> renderAlongRays(const Gaussians<double> &G,
                                 const Camera<double> &C, const Options &O,
                                 RayDepths By) {
+  assert(By != RayDepths::Ray || O.Dilation == 0);
   Picture<double> P;
   P.Width = C.Width;
   P.Height = C.Height;
@@ -272,6 +310,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
                               O.Background[2]);
   const SeenScene All(G, C, O, By);
   const double LeastAlpha = leastAlpha<double>(O.AlphaCutoff);
+  const double OneOrder = By == RayDepths::Ray ? DoubtBand : DepthRounding;
   std::atomic<uint64_t> Blends = 0, Walked = 0, Saturated = 0;
   forEachTile(Grid.count(), O.Threads, [&](std::size_t Tile) {
     const int X0 = static_cast<int>(Tile) % Grid.Columns * Grid.Size;
@@ -298,7 +337,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
           const double Next = T * (1 - Alpha);
           if (near(Next, O.Cutoff))
             P.Doubts[At] |= DoubtThreshold;
-          if (S.Depth - Depth <= DepthRounding * S.Depth)
+          if (S.Depth - Depth <= OneOrder * S.Depth)
             P.Doubts[At] |= DoubtOrder;
           Depth = S.Depth;
           if (isFull(Next, O)) {

@@ -96,6 +96,40 @@ TEST(AlongRays, OneGaussianIsItsLargestDensityOnEachRay) {
               1e-4);
 }
 
+TEST(AlongRays, TracedOrderIsThatOfTheDensest) {
+  auto C = camera(&lenses::Pinhole);
+  C.Principal = {32.5, 24.5};
+  Options O;
+  O.Dilation = 0;
+  // A sheet whose mean is nearer than a ball, but which is farther where the
+  // ball is: at 2 / (1 - 0.24 tan 0.8) = 2.66.
+  Gaussians<double> G;
+  addRound(G, {0, 0, 2}, 0, 0.9, {1, 0, 0});
+  G.Scales[0] = {3, 3, 0.001};
+  G.Quats[0] = {std::cos(0.4), 0, -std::sin(0.4), 0};
+  addRound(G, {0.5, 0, 2.1}, 0.1, 0.9, {0, 1, 0});
+  const auto At = static_cast<std::size_t>(24 * C.Width + 44);
+  const auto Seen = renderAlongRays(G, C, O, RayDepths::Ray).Render[At];
+  EXPECT_NEAR(Seen.y, 0.9, 0.01);
+  EXPECT_NEAR(Seen.x, 0.09, 0.01);
+  const auto ByMeans = renderAlongRays(G, C, O).Render[At];
+  EXPECT_GT(ByMeans.x, 0.8);
+  EXPECT_LT(ByMeans.y, 0.2);
+  // The near plane takes where it is densest, at -1.24 and 1.23, not the mean.
+  G.Means[0] = {1, 0, 0.1};
+  EXPECT_EQ(renderAlongRays(G, C, O, RayDepths::Ray).Render[At].x, 0);
+  G.Means[0] = {-1, 0, -0.1};
+  EXPECT_GT(renderAlongRays(G, C, O, RayDepths::Ray).Render[At].x, 0.7);
+  // Depths within the band are doubtful.
+  Gaussians<double> Two;
+  addRound(Two, {0, 0, 2}, 0.3, 0.4, glm::dvec3(1));
+  addRound(Two, {0, 0, 2 * (1 + 5e-6)}, 0.3, 0.5, glm::dvec3(1));
+  const auto Centre = static_cast<std::size_t>(24 * C.Width + 32);
+  EXPECT_EQ(renderAlongRays(Two, C, O, RayDepths::Ray).Doubts[Centre],
+            DoubtOrder);
+  EXPECT_EQ(renderAlongRays(Two, C, O).Doubts[Centre], 0);
+}
+
 TEST(AlongRays, DoubtfulPixelsAreNearAThresholdOrHaveEqualDepths) {
   auto C = camera(&lenses::Pinhole);
   C.Principal = {32.5, 24.5};

@@ -127,8 +127,8 @@ struct Seen {
   double Depth;
   int32_t Index;
   double Alpha;
-  /// Whether it is densest so near the ray's origin that fp32 may see that on
-  /// the other side.
+  /// Whether it is densest so near the ray's origin, or where depths are along
+  /// rays the near plane, that fp32 may see that on the other side.
   bool IsAtOrigin = false;
   bool operator<(const Seen &Other) const {
     return std::pair(Depth, Index) < std::pair(Other.Depth, Other.Index);

@@ -162,11 +162,12 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
       if (auto Written = writeGradients(A, S, C, O); !Written)
         return Written;
     if (A.AlongRays)
-      P = reference::renderAlongRays(splat::toReference<Real>(S), C, O,
-                                     A.Order == "pose"
-                                         ? reference::RayDepths::Pose
-                                         : reference::RayDepths::Own);
-    if (A.Order == "ray") {
+      P = reference::renderAlongRays(
+          splat::toReference<Real>(S), C, O,
+          A.Order == "pose"  ? reference::RayDepths::Pose
+          : A.Order == "ray" ? reference::RayDepths::Ray
+                             : reference::RayDepths::Own);
+    else if (A.Order == "ray") {
       const auto G = splat::toReference<Real>(S);
       auto R = reference::blendInOrder(Splats, C.Width, C.Height, O,
                                        reference::depthAlongRay(G, C),
@@ -231,10 +232,10 @@ Expected<Success> run(Arguments &A) {
       return Error{*File, "unknown file extension, expected .npz",
                    ExitCode::Usage};
   if (A.AlongRays && (A.Precision != "f64" || A.Support != "exact" ||
-                      A.Projection != "jacobian" || A.Order == "ray"))
+                      A.Projection != "jacobian"))
     return Error{"",
                  "--along-rays is for --precision f64 without footprints, "
-                 "expected no --support, --projection or --order ray",
+                 "expected no --support or --projection",
                  ExitCode::Usage};
   if (A.Gradients.empty() != A.Upstream.empty() ||
       (!A.Gradients.empty() && !A.AlongRays))
@@ -258,6 +259,12 @@ Expected<Success> run(Arguments &A) {
     return File.error();
   A.Options.Antialiased = File->DrawnAs.Antialiased;
   A.Options.Dilation = File->DrawnAs.Dilation.value_or(A.Options.Dilation);
+  if (A.AlongRays && A.Order == "ray" &&
+      (A.Options.Dilation != 0 || !A.Gradients.empty()))
+    return Error{"",
+                 "--along-rays --order ray has neither dilation nor "
+                 "gradients, expected --dilation 0 and no --gradients",
+                 ExitCode::Usage};
   if (!A.Gradients.empty() &&
       (A.Options.Dilation != 0 || A.Options.Antialiased))
     return Error{"",
@@ -267,8 +274,9 @@ Expected<Success> run(Arguments &A) {
   const auto View = splat::readCamera(A.Cameras, A.View);
   if (!View)
     return View.error();
-  if (A.Order == "ray" && (A.Precision != "f64" || View->Optics.Shutter ||
-                           !View->Optics.isPinhole()))
+  if (A.Order == "ray" && !A.AlongRays &&
+      (A.Precision != "f64" || View->Optics.Shutter ||
+       !View->Optics.isPinhole()))
     return Error{A.Cameras,
                  "--order ray is for --precision f64 and pinholes of one "
                  "moment, expected these"};
@@ -305,7 +313,9 @@ int main(int Count, char **Values) {
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
   App.add_option("--order", A.Order,
-                 "Depths that define a pixel's blend order, with f64; pose: "
+                 "Depths that define a pixel's blend order, with f64; ray: "
+                 "where each Gaussian is densest on the pixel's ray, and with "
+                 "--along-rays the near plane takes this depth, too; pose: "
                  "with --along-rays, depths at the camera's pose, as for "
                  "footprints under a rolling shutter")
       ->check(CLI::IsMember({"depth", "ray", "pose"}))
