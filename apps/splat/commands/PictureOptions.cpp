@@ -153,8 +153,8 @@ void addDrawOptions(CLI::App &App, DrawArguments &A, bool Effects) {
                "Cull blocks of 16 Gaussians that are outside a pinhole "
                "camera's frustum; results are bit-identical (docs/ideas.md)");
   addSize(App, "--ray-window", A.Options.RayWindow, {4, 8, 16},
-          "Number of Gaussians that a pixel of --order ray finds in each pass "
-          "over its list; results are bit-identical",
+          "Number of Gaussians that a pixel of --order ray or --renderer trace "
+          "finds in each pass over its list or tree; results are bit-identical",
           std::to_string(A.Options.RayWindow));
   if (!Effects)
     return;
@@ -204,7 +204,8 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
   if (O.Order == PixelOrder::Ray && O.DepthBits != RenderOptions().DepthBits)
     return usage(
         "--depth-bits rounds the depths of centres, expected --order depth");
-  if (O.Order == PixelOrder::Depth && O.RayWindow != RenderOptions().RayWindow)
+  if (O.Order == PixelOrder::Depth && O.Kind != RendererKind::Trace &&
+      O.RayWindow != RenderOptions().RayWindow)
     return usage("--ray-window applies to rays only, expected --order ray");
   if (O.Reach == Support::Official16 && O.tileSize() != 16)
     return usage(fmt::format("--tile {}: --support official16 has tiles of "
@@ -327,16 +328,18 @@ void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B) {
   addBackwardOptions(App, B);
 }
 
-void addRendererOption(CLI::App &App, RendererKind &Kind) {
+void addRendererOption(CLI::App &App, RendererKind &Kind,
+                       const std::vector<RendererKind> &Kinds) {
   const HelpGroup Group(App, "Picture");
-  addChoice(App, "--renderer", Kind, {RendererKind::Splat, RendererKind::Ray},
+  addChoice(App, "--renderer", Kind, Kinds,
             "Evaluation of a Gaussian: as a footprint on the picture, or where "
-            "it is densest on each pixel's ray (docs/cameras.md)");
+            "it is densest on each pixel's ray, by lists of tiles or traced "
+            "(docs/cameras.md)");
 }
 
-void addRendererOption(CLI::App &App, RendererKind &Kind,
-                       DrawingRequest &Drawn) {
-  addRendererOption(App, Kind);
+void addRendererOption(CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
+                       const std::vector<RendererKind> &Kinds) {
+  addRendererOption(App, Kind, Kinds);
   App.get_option("--renderer")->each([&Drawn](const std::string &Chosen) {
     Drawn.AlongRays = Chosen == name(RendererKind::Ray);
   });
@@ -355,10 +358,10 @@ void warnOfRays(const Drawing &D, const std::string &Path) {
                     "render draws it along rays");
 }
 
-Expected<Success> excludedByRays(std::string_view Option) {
-  return usage(fmt::format("--renderer ray excludes {}, expected --renderer "
+Expected<Success> excludedByRays(std::string_view Option, RendererKind Kind) {
+  return usage(fmt::format("--renderer {} excludes {}, expected --renderer "
                            "splat",
-                           Option));
+                           name(Kind), Option));
 }
 
 Expected<Success> checkRenderer(const RenderOptions &O,
@@ -374,7 +377,18 @@ Expected<Success> checkRenderer(const RenderOptions &O,
         {O.CullBlocks, "--cull-blocks"},
         {O.PixelUnit.any(), "--pixel-unit"}})
     if (Is)
-      return excludedByRays(Option);
+      return excludedByRays(Option, O.Kind);
+  if (O.Kind != RendererKind::Trace)
+    return Success{};
+  for (const auto &[Is, Option] :
+       {std::pair{O.DepthBits != RenderOptions().DepthBits, "--depth-bits"},
+        {O.Tile.has_value(), "--tile"},
+        {O.SimtGroup != RenderOptions().SimtGroup, "--simt-group"}})
+    if (Is)
+      return excludedByRays(Option, O.Kind);
+  if (O.Blending == Path::Raster)
+    return usage("--renderer trace needs the cores, which take rays through a "
+                 "tree, expected --path simt");
   return Success{};
 }
 
@@ -384,16 +398,16 @@ Expected<Success> checkRays(const RenderOptions &O,
       ((O.Optics->isPinhole() || O.Optics->IsParallel) && !O.Rolling))
     return Success{};
   return Error{Cameras,
-               fmt::format("--renderer ray: a camera of model {}{}, expected a "
+               fmt::format("--renderer {}: a camera of model {}{}, expected a "
                            "pinhole or parallel rays, or --renderer splat",
-                           O.Optics->Name,
+                           name(O.Kind), O.Optics->Name,
                            O.Rolling ? " with a rolling shutter" : "")};
 }
 
 Expected<Success> checkGradientOptions(const RenderOptions &O,
                                        const BackwardOptions &B) {
   if (O.Kind == RendererKind::Ray && B.Pixels != SimtSums::Ordered)
-    return excludedByRays("--simt-sums");
+    return excludedByRays("--simt-sums", O.Kind);
   for (const auto &Checked : {checkPictureOptions(O),
                               checkTilesBack(O.Blending, O.Tile, O.SimtGroup)})
     if (!Checked)

@@ -100,12 +100,19 @@ void addBackwardOptions(CLI::App &App, BackwardOptions &B);
 /// Checks the values for the path \p Blending; an error is a usage error.
 Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
 
-/// Declares --renderer.
-void addRendererOption(CLI::App &App, RendererKind &Kind);
+/// Renderers that training has, too.
+inline const std::vector<RendererKind> TrainedRenderers{RendererKind::Splat,
+                                                        RendererKind::Ray};
+
+/// Declares --renderer with \p Kinds.
+void addRendererOption(
+    CLI::App &App, RendererKind &Kind,
+    const std::vector<RendererKind> &Kinds = TrainedRenderers);
 /// The same, for scenes whose files may name one: notes in \p Drawn that it is
 /// given.
-void addRendererOption(CLI::App &App, RendererKind &Kind,
-                       DrawingRequest &Drawn);
+void addRendererOption(
+    CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
+    const std::vector<RendererKind> &Kinds = TrainedRenderers);
 
 /// drawAs(), with the renderer that \p D names.
 void drawByFile(RenderOptions &O, const Drawing &D);
@@ -113,8 +120,10 @@ void drawByFile(RenderOptions &O, const Drawing &D);
 /// Says that a scene \p Path trained along rays is drawn as footprints.
 void warnOfRays(const Drawing &D, const std::string &Path);
 
-/// The usage error that \p Option is of footprints.
-Expected<Success> excludedByRays(std::string_view Option);
+/// The usage error that \p Option is of footprints, or of another renderer than
+/// \p Kind.
+Expected<Success> excludedByRays(std::string_view Option,
+                                 RendererKind Kind = RendererKind::Ray);
 
 /// Refuses options that only footprints have.
 Expected<Success> checkRenderer(const RenderOptions &O,

@@ -124,10 +124,17 @@ Expected<Success> checkVideo(const RenderArguments &A) {
 
 /// Refuses options that only footprints have.
 Expected<Success> checkRenderer(const RenderArguments &A) {
-  if (A.Options.Kind == RendererKind::Ray && !A.Numerics.empty())
-    return excludedByRays("--numerics");
-  if (A.Options.Kind == RendererKind::Ray && A.Layers.needLists())
-    return excludedByRays("--contributors or --depth-as median");
+  const RendererKind Kind = A.Options.Kind;
+  const bool IsRays = Kind != RendererKind::Splat;
+  const bool IsTrace = Kind == RendererKind::Trace;
+  for (const auto &[Is, Option] :
+       {std::pair{IsRays && !A.Numerics.empty(), "--numerics"},
+        {IsRays && A.Layers.needLists(), "--contributors or --depth-as median"},
+        {IsTrace && A.Layers.needDepths(), "--depth"},
+        {IsTrace && A.Layers.needNormals(), "--normals"},
+        {IsTrace && !A.Pairs.empty(), "--pairs"}})
+    if (Is)
+      return excludedByRays(Option, Kind);
   return checkRenderer(A.Options, A.Scene.Options.Drawn);
 }
 
@@ -453,13 +460,15 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return Through;
   if (auto Checked = checkRays(A.Options, A.Cameras.File); !Checked)
     return Checked;
-  if (A.Options.Kind == RendererKind::Ray && !File->DrawnAs.Source.empty())
+  if (A.Options.Kind != RendererKind::Splat && !File->DrawnAs.Source.empty())
     printDiagnostic("splat", "note", A.Scene.Path,
                     fmt::format("is not drawn as \"{}\" says, which is of "
                                 "footprints: --renderer splat does",
                                 printable(File->DrawnAs.Source)));
   // In the frame of the scene as it is drawn.
   A.Options.Surface = joined(*OwnMesh, *AddedMesh, S->Origin);
+  if (A.Options.Kind == RendererKind::Trace && A.Options.Surface)
+    return excludedByRays("a mesh", RendererKind::Trace);
   for (const auto &Checked :
        {checkMesh(A, A.Options.Surface != nullptr),
         checkTransparency(A.Options, A.Layers.needDepths(), A.Overlap),
@@ -609,7 +618,9 @@ Runner addRender(CLI::App &App) {
       "Write a page with the breakdown of the frame time (implies --time)");
   addDrawOptions(App, *A);
   Group.next("Picture");
-  addRendererOption(App, A->Options.Kind, A->Scene.Options.Drawn);
+  addRendererOption(
+      App, A->Options.Kind, A->Scene.Options.Drawn,
+      {RendererKind::Splat, RendererKind::Ray, RendererKind::Trace});
   Group.next("Accuracy and speed");
   App.add_flag("--overlap", A->Overlap,
                "With several pictures, overlap the preparation of one with the "

@@ -20,7 +20,7 @@ Finding detect(const EffectInputs &In) {
         false,
         "not with full spheres, the unscented transform or rolling shutters",
         false};
-  if (In.Options.Kind == RendererKind::Ray)
+  if (In.Options.Kind != RendererKind::Splat)
     return {true, "rays have no dilation to hide an error of a place behind"};
   const ViewFacts &F = In.Facts;
   const bool IsParallel = In.Options.Optics->IsParallel;

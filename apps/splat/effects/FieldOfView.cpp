@@ -9,7 +9,7 @@ namespace vorion::splat {
 namespace {
 
 Finding detect(const EffectInputs &In) {
-  if (In.Options.Kind == RendererKind::Ray)
+  if (In.Options.Kind != RendererKind::Splat)
     return {false, "rays have no Jacobian", false};
   if (!In.Options.Optics->HoldsSlopes)
     return {false, "this camera has no limits of x/z and y/z", false};

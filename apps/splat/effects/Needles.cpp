@@ -12,7 +12,7 @@ Finding detect(const EffectInputs &In) {
   if (In.Options.Through != Spread::Jacobian || In.Options.Rolling)
     return {false, "not with the unscented transform or rolling shutters",
             false};
-  if (In.Options.Kind == RendererKind::Ray)
+  if (In.Options.Kind != RendererKind::Splat)
     return {false, "not with rays", false};
   const std::size_t Count = In.Facts.Pointing;
   return {Count != 0,

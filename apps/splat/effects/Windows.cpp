@@ -15,7 +15,7 @@ Finding detect(const EffectInputs &In) {
   if (In.Options.Through != Spread::Jacobian || In.Options.Rolling)
     return {false, "not with the unscented transform or rolling shutters",
             false};
-  if (In.Options.Kind == RendererKind::Ray)
+  if (In.Options.Kind != RendererKind::Splat)
     return {false, "the records of rays have places from their boxes", false};
   const bool IsWide = In.Facts.Side > Widest;
   return {IsWide,

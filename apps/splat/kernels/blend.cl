@@ -7,18 +7,10 @@
 
 // Work-items of a group.
 #pragma vorion choice uint GROUP
-// gsplat: a pixel is done at a transmittance of the cut-off, not only below it.
-#pragma vorion choice flag STOP_AT_EQUAL
 // Training: pixels keep their last contributor.
 #pragma vorion choice flag KEEP_LAST
-// The least alpha that is blended, in 1/255.
-#pragma vorion choice float ALPHA_CUTOFF
-// The exponent below which no opacity is visible.
-#pragma vorion choice float MIN_POWER
 // Support: all tiles that INRIA's square meets.
 #pragma vorion choice flag SUPPORT_OFFICIAL16
-// Opacities above 0.99 (effects/AlphaClamp.cpp).
-#pragma vorion choice effect USE_ALPHA_CLAMP
 // Gaussians of several tiles are marked (effects/IntersectTags.cpp).
 #pragma vorion choice effect USE_INTERSECT_TAGS
 // Pixels have limits, where a mesh hides what is behind (effects/Mesh.cpp).
@@ -27,14 +19,10 @@
 // (effects/Mesh.cpp).
 #pragma vorion choice effect USE_LAYERS
 
+#include "blend_rules.cl"
 #include "layout.h"
 #include "tile.h"
 #include "window.h"
-#ifdef EXP_DEGREE
-#include "units.cl"
-#else
-#include "falloff.cl"
-#endif
 
 // Small, since a pixel that is done waits for the batch's end: letting lanes leave
 // the loop one by one costs more, in instructions on trained scenes.
@@ -48,13 +36,6 @@
 // than the group.
 #define OWN ((TILE_PIXELS + GROUP - 1) / GROUP)
 
-// True if a pixel with this transmittance takes no more.
-#ifdef STOP_AT_EQUAL
-#define SATURATED(t) ((t) <= cutoff)
-#else
-#define SATURATED(t) ((t) < cutoff)
-#endif
-
 // What spares a pixel the exponential. The official algorithm has neither: every
 // pixel of a tile takes it for every Gaussian of the list that has a density
 // there. Both leave the same pixels.
@@ -65,8 +46,7 @@
 #else
 #define IN_BOX(g, dx, dy)                                                      \
   ((fabs(dx) <= (g)->extent[0]) & (fabs(dy) <= (g)->extent[1]))
-// Below MIN_POWER alpha is under the cut-off whatever the opacity.
-#define WORTH_TAKING(power) ((power) >= MIN_POWER)
+#define WORTH_TAKING(power) IS_VISIBLE_POWER(power)
 #define DENSITY(power) falloff(power)
 #endif
 
@@ -92,8 +72,7 @@ static float power_at(__local const splat_record *g, float dx, float dy) {
 
 static float alpha_of(__local const splat_record *g, float power,
                       uint effects) {
-  const float unclamped = g->opacity * DENSITY(power);
-  return USE_ALPHA_CLAMP ? fmin(0.99f, unclamped) : unclamped;
+  return clamped_alpha(g->opacity * DENSITY(power), effects);
 }
 
 typedef struct {

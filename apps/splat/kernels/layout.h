@@ -93,6 +93,57 @@ typedef struct {
   float mean[3];                      ///< from the camera
 } splat_ray_frame;
 
+/// A Gaussian as traced rays meet it (trace.cl), in the world's axes. Vectors of
+/// three have a component for each of its own axes where they are its
+/// deviations.
+typedef struct {
+  float mean[3], mean_low[3]; ///< from the camera, as high + low
+  float axes[9];              ///< unit vectors, one after the other
+  float scale[3];             ///< deviations over the largest
+  float sharpness;            ///< 1 over the square of the largest
+  float opacity;              ///< 0 to 1
+} splat_traced;
+
+/// Where the rays of pixels come from: start + x across + y down for pixel
+/// (x, y) is a pinhole's direction, with z 1 along the camera's axis, or the
+/// origin of a parallel ray; the other of the two is the same for all. In the
+/// world's axes from the camera, each as high + low.
+typedef struct {
+  float start[2][3], across[2][3], down[2][3], same[2][3];
+} splat_ray_source;
+
+/// Planes of rays, plane p of ray i at p * rays + i. A ray meets Gaussians
+/// between its nearest and its farthest multiple of the direction.
+enum {
+  RAY_ORIGIN = 0, ///< from the camera, in the world's axes
+  RAY_ORIGIN_LOW = 3,
+  RAY_DIRECTION = 6, ///< of any length
+  RAY_DIRECTION_LOW = 9,
+  RAY_NEAREST = 12,
+  RAY_FARTHEST = 13,
+  RAY_PLANES = 14
+};
+
+/// A box of the tree over Gaussians (bvh.cl), low corner and high corner.
+enum { BOX_LOW = 0, BOX_HIGH = 3, BOX_WORDS = 6 };
+
+/// That tree: node 1 is the root, the children of node n are 4 n to 4 n + 3.
+/// Leaf i in the order of Morton codes is node leaves + i. Of the numbers below
+/// leaves nobody has those from gap on, so boxes of leaves lie `gap` earlier.
+typedef struct {
+  uint leaves; ///< a power of 4, at least 4
+  uint count;  ///< of Gaussians
+  uint gap;    ///< leaves / 2
+} splat_tree;
+
+/// What a ray took.
+typedef struct {
+  uint nodes;     ///< boxes that were tested
+  uint evaluated; ///< Gaussians whose box it meets
+  uint blended;   ///< Gaussians
+  uint passes;    ///< through the tree: one, and restarts
+} splat_ray_work;
+
 /// How the rasterizers blend a picture.
 typedef struct {
   uint size[2];  ///< picture, px
@@ -215,6 +266,13 @@ typedef struct {
   uint pairs;                   ///< tiles of the first, saturating
   uint least_key, greatest_key; ///< of the first; ~0 and 0 for none
 } splat_seen;
+
+/// What a work-item of trace_shapes.cl found.
+typedef struct {
+  uint gaussians;            ///< that rays may meet
+  uint culled[CULL_REASONS]; ///< that none does
+  float distance;            ///< of the first from the camera, the sum
+} splat_shapes_seen;
 
 /// Local memory that a group of project.cl is given, and with what lies behind
 /// the view.

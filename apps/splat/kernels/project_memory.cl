@@ -4,12 +4,6 @@
 
 // Parameters lie in blocks (layout.h), as drawing has them.
 #pragma vorion choice flag SCENE_IN_BLOCKS
-// The harmonics of band 1 (effects/ShBands.cpp).
-#pragma vorion choice effect USE_SH1
-// The harmonics of band 2 (effects/ShBands.cpp).
-#pragma vorion choice effect USE_SH2
-// The harmonics of band 3 (effects/ShBands.cpp).
-#pragma vorion choice effect USE_SH3
 // Blocks with a verdict are passed over (effects/CullBlocks.cpp).
 #pragma vorion choice effect USE_CULL_BLOCKS
 // Pictures far from the axis (effects/Crop.cpp).
@@ -18,15 +12,13 @@
 #include "layout.h"
 #include "record.h"
 #include "lens_model.cl"
+#include "sh.cl"
 
 // Work-items of a group.
 #ifndef LANES
 #define LANES 16
 #endif
 
-// Planes of colours that are there: a number where no band has a flag.
-#define SH_PLANES                                                              \
-  (3u * (1u + (USE_SH1 ? 3u : 0u) + (USE_SH2 ? 5u : 0u) + (USE_SH3 ? 7u : 0u)))
 // In blocks, a lane asks for words ahead of their use, each in another line, so
 // that the warp asks for all lines: of the next geometry, and, so many a time,
 // of its colours (but those of lanes whose Gaussian is behind the camera).

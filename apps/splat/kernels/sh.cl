@@ -15,6 +15,10 @@
 #include "planes.h"
 #include "sh_basis.h"
 
+// Planes of colours that are there: a number where no band has a flag.
+#define SH_PLANES                                                              \
+  (3u * (1u + (USE_SH1 ? 3u : 0u) + (USE_SH2 ? 5u : 0u) + (USE_SH3 ? 7u : 0u)))
+
 // Adds basis * coefficient k of every channel.
 #define ADD_SH(k, basis)                                                       \
   do {                                                                         \

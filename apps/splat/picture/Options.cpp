@@ -3,7 +3,7 @@
 namespace vorion::splat {
 
 void drawAs(RenderOptions &O, const Drawing &D) {
-  if (O.Kind == RendererKind::Ray) {
+  if (O.Kind != RendererKind::Splat) {
     O.Dilation = 0;
     return;
   }

@@ -174,6 +174,33 @@ splat_crop makeCrop(const Camera &C) {
   return makeCrop(C, 0.5 * C.Width, 0.5 * C.Height, {0, 0});
 }
 
+splat_ray_source makeRays(const Camera &C) {
+  const auto Rotation = C.worldToCameraRotation();
+  const double Focal[2] = {C.Fx, C.Fy};
+  const double Start[2] = {(0.5 - C.Cx) / C.Fx, (0.5 - C.Cy) / C.Fy};
+  const bool IsParallel = C.Optics.Model->IsParallel;
+  splat_ray_source S{};
+  for (std::size_t K = 0; K < 3; ++K) {
+    // Rows are the camera's axes in the world.
+    const double Axes[3] = {Rotation[K], Rotation[3 + K], Rotation[6 + K]};
+    split(Axes[0] / Focal[0], S.across[0][K], S.across[1][K]);
+    split(Axes[1] / Focal[1], S.down[0][K], S.down[1][K]);
+    split(Start[0] * Axes[0] + Start[1] * Axes[1] + (IsParallel ? 0 : Axes[2]),
+          S.start[0][K], S.start[1][K]);
+    split(IsParallel ? Axes[2] : 0, S.same[0][K], S.same[1][K]);
+  }
+  return S;
+}
+
+float rayOriginRounding(const Camera &C) {
+  if (!C.Optics.Model->IsParallel)
+    return 0;
+  const double Most =
+      std::hypot(std::max(std::abs(C.Cx), std::abs(C.Width - C.Cx)) / C.Fx,
+                 std::max(std::abs(C.Cy), std::abs(C.Height - C.Cy)) / C.Fy);
+  return static_cast<float>(Most * 0x1p-22);
+}
+
 std::vector<splat_crop> makeWindows(const Camera &C, unsigned Bits) {
   const int Side = 1 << Bits;
   std::vector<splat_crop> Windows;

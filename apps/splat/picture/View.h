@@ -19,6 +19,11 @@ splat_lens makeLens(const Camera &C);
 /// What lies behind that in a program for cameras that move while they expose.
 splat_shutter makeShutter(const Camera &C);
 
+/// The rays of \p C, a pinhole or with parallel rays.
+splat_ray_source makeRays(const Camera &C);
+/// An upper bound of what rounding takes away from their origins.
+float rayOriginRounding(const Camera &C);
+
 /// Whether the principal point is outside the picture, which is then a crop of
 /// a larger one: the place's offset cancels against the principal point.
 bool isCrop(const splat_view &V);

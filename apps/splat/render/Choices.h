@@ -38,10 +38,10 @@ template <typename Program> void choose(Program &P, const RenderOptions &O) {
     P.ALPHA_CUTOFF = static_cast<cl_float>(O.AlphaCutoff);
   if constexpr (requires { P.MIN_POWER; })
     P.MIN_POWER = leastPower(O);
-  if constexpr (requires { P.NEAR_LIMIT; }) {
+  if constexpr (requires { P.NEAR_LIMIT; })
     P.NEAR_LIMIT = O.nearLimit();
+  if constexpr (requires { P.NEAR_IS_LEFT_OUT; })
     P.NEAR_IS_LEFT_OUT = Inria;
-  }
   if constexpr (requires { P.SUBPIXEL_BITS; })
     if (O.SubpixelBits != MaxSubpixelBits)
       P.SUBPIXEL_BITS = O.SubpixelBits;

@@ -124,6 +124,8 @@ GaussianBuffers uploadGaussians(Launcher &Launch, SceneSource From,
 }
 
 void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
+  if (Options.Kind == RendererKind::Trace)
+    return trace(begin(Gaussians, C));
   prepare(Gaussians, C);
   if (Division)
     Division->keepOwn(Current, Options.tileHeight());
@@ -135,19 +137,25 @@ void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
   blend();
 }
 
-void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &Given) {
-  const Camera C = relativeTo(Given, Gaussians.Origin);
+Camera Pipeline::begin(const GaussianBuffers &Gaussians, const Camera &Given) {
+  Camera C = relativeTo(Given, Gaussians.Origin);
   Current = {};
   Current.View = makeView(C, Options);
   Current.View.effects = Plan.flags();
   Current.Gaussians = Gaussians;
   if (!isDrawnBy(*Options.Optics, C))
-    return Launch.fail(
-        {"", fmt::format("a camera of model {}, expected {}",
-                         C.Optics.Model->Name, Options.Optics->Name)});
+    Launch.fail({"", fmt::format("a camera of model {}, expected {}",
+                                 C.Optics.Model->Name, Options.Optics->Name)});
   if (C.Optics.Shutter && !Options.Rolling)
-    return Launch.fail(
+    Launch.fail(
         {"", "a camera with a rolling shutter, expected a global shutter"});
+  return C;
+}
+
+void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &Given) {
+  const Camera C = begin(Gaussians, Given);
+  if (Launch.failure())
+    return;
   const bool IsPinhole = Options.Optics->isPinhole() && !Options.Rolling;
   const auto FailWithout = [&](std::string_view Option, std::string_view Why) {
     Launch.fail(

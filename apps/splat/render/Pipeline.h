@@ -109,6 +109,18 @@ GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S, int ShDegree);
 GaussianBuffers uploadGaussians(Launcher &Launch, SceneSource From,
                                 const EffectPlan &Plan);
 
+/// What traced rays take of a picture (kernels/layout.h).
+struct TraceFrame {
+  cl::Buffer Shapes;  ///< a splat_traced each
+  cl::Buffer Boxes;   ///< of Gaussians, BOX_WORDS each
+  cl::Buffer Colors;  ///< seen from the camera
+  float Distance = 0; ///< the mean of a coordinate, from the camera
+  splat_tree Tree{};
+  cl::Buffer Nodes; ///< their boxes
+  cl::Buffer Rays;  ///< RAY_PLANES of those of all pixels
+  cl::Buffer Work;  ///< a splat_ray_work for each ray
+};
+
 /// The buffers of one picture, in the order in which they are filled.
 struct Frame {
   splat_view View{};
@@ -147,6 +159,7 @@ struct Frame {
   MeshFrame Surface;    ///< with the effect \c Mesh
   cl::Buffer RayFrames; ///< with the effect \c RayOrder: a splat_ray_frame for
                         ///< each Gaussian
+  TraceFrame Traced;    ///< with \c RendererKind::Trace
   uint32_t Visible = 0, Pairs = 0;
   uint32_t LeastKey = 0, GreatestKey = 0; ///< of visible Gaussians
   std::array<uint64_t, CullReasons.size()> Culled{};
@@ -165,6 +178,16 @@ struct Frame {
 
   uint32_t tiles() const { return View.tiles[0] * View.tiles[1]; }
   uint32_t pixels() const { return View.size[0] * View.size[1]; }
+};
+
+/// What the rays of a picture took.
+struct RayWork {
+  uint64_t Rays = 0;
+  uint64_t Nodes = 0;       ///< boxes that were tested
+  uint64_t Evaluated = 0;   ///< Gaussians whose boxes they meet
+  uint64_t Blended = 0;     ///< Gaussians
+  uint64_t Restarts = 0;    ///< passes beyond the first
+  uint32_t MostBlended = 0; ///< by a ray
 };
 
 /// Renders pictures of one size and kind. Needs the programs of \c planRender
@@ -216,6 +239,15 @@ public:
   void checkStatuses(const cl::Buffer &Statuses);
 
 private:
+  /// Begins a frame of \p Gaussians, and is the camera in their frame.
+  Camera begin(const GaussianBuffers &Gaussians, const Camera &Given);
+  /// \name Traced rays (TraceStage.cpp)
+  /// @{
+  void trace(const Camera &C);
+  void shape(const Camera &C);
+  void buildTree();
+  void traceRays(const Camera &C);
+  /// @}
   void project(const Camera &C);
   cl::Buffer cullBlocks();
   /// Whether a lens or a crop follows the view in the buffer.

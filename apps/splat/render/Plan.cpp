@@ -4,6 +4,7 @@
 #include "kernels/activate_scene.cl.h"
 #include "kernels/blend.cl.h"
 #include "kernels/blend_by_ray.cl.h"
+#include "kernels/bvh.cl.h"
 #include "kernels/cull_blocks.cl.h"
 #include "kernels/depth.cl.h"
 #include "kernels/merge.cl.h"
@@ -21,6 +22,9 @@
 #include "kernels/scan.cl.h"
 #include "kernels/sort.cl.h"
 #include "kernels/tiles.cl.h"
+#include "kernels/trace.cl.h"
+#include "kernels/trace_rays.cl.h"
+#include "kernels/trace_shapes.cl.h"
 #include "kernels/windows.cl.h"
 #include "render/Choices.h"
 
@@ -28,17 +32,14 @@
 
 namespace vorion::splat {
 
-RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
-  RenderPlan Plan{std::move(Effects), {}};
-  const auto Add = [&](auto Program) {
-    choose(Program, Options);
-    Plan.Effects.choose(Program);
-    Plan.Programs.push_back(Program);
-  };
+/// From Gaussians to pixels by lists of tiles.
+template <typename Function>
+static void addLists(const Function &Add, const EffectPlan &Effects,
+                     const RenderOptions &Options) {
   Add(kernels::project::Program{});
   Add(kernels::sort::Program{});
   Add(kernels::tiles::Program{});
-  const bool ByRay = Plan.Effects.done(effects::RayOrder);
+  const bool ByRay = Effects.done(effects::RayOrder);
   if (Options.Blending == Path::Raster)
     Add(kernels::rasterize::Program{});
   else if (ByRay)
@@ -47,14 +48,14 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
     Add(kernels::blend::Program{});
   if (ByRay)
     Add(kernels::ray_frames::Program{});
-  if (Plan.Effects.done(effects::Mesh)) {
+  if (Effects.done(effects::Mesh)) {
     Add(kernels::scan::Program{});
     Add(kernels::mesh::Program{});
     if (Options.Blending == Path::Raster)
       Add(kernels::mesh_raster::Program{});
     else
       Add(kernels::mesh_simt::Program{});
-    if (Plan.Effects.done(effects::Layers)) {
+    if (Effects.done(effects::Layers)) {
       Add(kernels::mesh_layers::Program{});
       if (Options.Blending == Path::Raster)
         Add(kernels::mesh_fragments::Program{});
@@ -62,8 +63,30 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
         Add(kernels::mesh_fragments_simt::Program{});
     }
   }
-  if (Plan.Effects.done(effects::Windows))
+  if (Effects.done(effects::Windows))
     Add(kernels::windows::Program{});
+}
+
+/// From Gaussians to pixels by rays through a tree.
+template <typename Function> static void addTracing(const Function &Add) {
+  Add(kernels::trace_shapes::Program{});
+  Add(kernels::sort::Program{});
+  Add(kernels::bvh::Program{});
+  Add(kernels::trace_rays::Program{});
+  Add(kernels::trace::Program{});
+}
+
+RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
+  RenderPlan Plan{std::move(Effects), {}};
+  const auto Add = [&](auto Program) {
+    choose(Program, Options);
+    Plan.Effects.choose(Program);
+    Plan.Programs.push_back(Program);
+  };
+  if (Options.Kind == RendererKind::Trace)
+    addTracing(Add);
+  else
+    addLists(Add, Plan.Effects, Options);
   if (Plan.Effects.done(effects::ActivatedScene))
     Add(kernels::activate_scene::Program{});
   if (Plan.Effects.done(effects::CullBlocks))

@@ -140,6 +140,8 @@ Arriving startFinish(Launcher &Launch, const RenderPlan &Plan, const Frame &F,
   A.Result.Visible = F.seen();
   A.Result.Pairs = F.Pairs;
   A.Result.Culled = F.Culled;
+  if (Options.Kind == RendererKind::Trace)
+    A.Result.Rays = readRayWork(Launch, F);
   A.Result.Picture = blank(F);
   A.Pixels = Launch.startReading("picture", Picture, 4 * uint64_t{F.pixels()});
   return A;

@@ -32,6 +32,7 @@ struct RenderResult {
   /// With the effect \c Normals: sums of weights times normals, as colours.
   std::optional<Image> Normals;
   std::optional<PixelLists> Lists;      ///< with the effect \c PixelLists
+  std::optional<RayWork> Rays;          ///< with \c RendererKind::Trace
   std::optional<VisibleMesh> MeshShown; ///< with RenderOptions::KeepVisible
 };
 
@@ -47,6 +48,9 @@ VisibleMesh readVisible(Launcher &Launch, const Frame &F,
 /// \p Resolved: the fourth channel is alpha, not transmittance.
 Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
                   bool Resolved = true);
+
+/// Of the rays of \p F.
+RayWork readRayWork(Launcher &Launch, const Frame &F);
 
 /// Uploads \p S and runs all stages with \p Launch, whose programs are built
 /// from \p Plan. Reads back only the picture, two counts and, on the path

@@ -168,6 +168,13 @@ Expected<Json> drawnJson(const Camera &View, const RenderOptions &O,
                 {"device_bytes", Result.DeviceBytes}}},
               {"stages", stagesJson(Result.Stages)},
               {"total", Total}};
+  if (const auto &Rays = Result.Rays)
+    Report["rays"] = {{"rays", Rays->Rays},
+                      {"nodes", Rays->Nodes},
+                      {"evaluated", Rays->Evaluated},
+                      {"blended", Rays->Blended},
+                      {"most_blended", Rays->MostBlended},
+                      {"restarts", Rays->Restarts}};
   if (const Mesh *M = O.Surface.get())
     Report["mesh"] = {
         {"vertices", M->vertices()},
