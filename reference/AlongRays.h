@@ -25,9 +25,9 @@ enum class RayDepths {
 ///
 /// The support of a Gaussian is unlimited, so \c Options::Reach and \c Through
 /// are ignored. A pixel is doubtful where an alpha or a transmittance is within
-/// \c DoubtBand of its threshold, a Gaussian is densest at the origin, the cosine
-/// being within that of 0, or fp32 may have two depths in another order; two
-/// depths along a ray may differ by \c DoubtBand.
+/// \c DoubtBand of its threshold, a Gaussian is densest at the origin, the
+/// cosine being within that of 0, or fp32 may have two depths in another order;
+/// two depths along a ray may differ by \c DoubtBand.
 /// \c Walked counts the Gaussians that each pixel evaluates completely.
 Picture<double> renderAlongRays(const Gaussians<double> &G,
                                 const Camera<double> &C, const Options &O,
