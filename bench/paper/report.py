@@ -20,6 +20,7 @@ sys.path.insert(0, os.path.dirname(FOLDER))
 import clocks  # noqa: E402
 import document  # noqa: E402
 import energy  # noqa: E402
+import lines  # noqa: E402
 import machines  # noqa: E402
 import rates  # noqa: E402
 import runs  # noqa: E402
@@ -114,6 +115,15 @@ def of_energy(rows):
             "efficiency": {"": f"{size:.2g}", **ratio}}
 
 
+def of_draws(drawn):
+    """Beside the claims' rows."""
+    said = lines.facts({"draws": drawn})["draws"]
+    follows = ", ".join(f"{name} ({value:+.2f})" for value, name in said["follows"].get("fps", ()))
+    stacks = said["splits"].get("figure_fps", {}).get("core.interleaved_stacks", {})
+    return {"draws": str(said["count"]), "draws.notblending": said["not_blending"], "draws.follows": follows,
+            **{f"draws.stacks.{level}": f"{held} of {count}" for level, (held, count) in stacks.items()}}
+
+
 def numbers(data):
     """All that the text may name."""
     found = {}
@@ -149,6 +159,10 @@ def generate(data, drawn, folder):
     """drawn: the result of section draws, or None."""
     rows = document.ordered(document.rows_of({**data, **({"draws": drawn} if drawn else {})}))
     found = numbers(data)
+    # Estimated rows have sentences for keys, which the note does not name.
+    found.update({f"{what}.{row['key']}": row[what] for row in rows if row["key"].isidentifier() for what in ("ours", "held")})
+    if drawn:
+        found.update(of_draws(drawn))
     kinds = [row["verdict"] for row in rows]
     found.update(claims=str(len(rows)), clock=" and ".join(sorted({str(v) for of in data.values() for v in of.get("clocks", ())})),
                  **{what: str(kinds.count(verdict)) for what, verdict in (("holds", HOLDS), ("not", NOT), ("open", OPEN))})
