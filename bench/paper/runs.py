@@ -101,10 +101,10 @@ class Runs:
     def measured(self, points, trimmed=lambda report: report):
         """The results of some points, in order; those that are missing are measured, or else raise Missing."""
         points = [self._of_builds(point) for point in points]
-        for point in points:
+        new = list({point.name: point for point in points if not self._is_found(point)}.values())
+        for point in new:
             if point.name in self.missing:
                 raise Missing(point.name)
-        new = list({point.name: point for point in points if point.name not in self.found}.values())
         results = study.kept(new, self.folder) if self.only_kept else study.measure(new, self.folder, self.jobs)
         for point, result in zip(new, results, strict=True):
             if result is None:
@@ -116,6 +116,10 @@ class Runs:
             self.builds.add(result["made_from"]["programs"])
             self.seconds[point.name] = result["seconds"]
         return [self.found[point.name] for point in points]
+
+    def _is_found(self, point):
+        """Whether a result is known, with all files that the point keeps: another section may have asked for it without a picture."""
+        return point.name in self.found and all(os.path.exists(study.file_of(self.folder, point, ending)) for ending in point.keep)
 
     def _of_builds(self, point):
         return dataclasses.replace(point, any_build=point.any_build or self.keep)
@@ -140,7 +144,7 @@ class Runs:
         if not self.only_kept:
             self.all(wanted)
             return
-        points = {run.name(): self._of_builds(run.point()) for run in wanted if run.name() not in self.found}
+        points = {run.name(): self._of_builds(run.point()) for run in wanted if not self._is_found(run.point())}
         for run, result in zip(points, study.kept(list(points.values()), self.folder), strict=True):
             if result is None:
                 self.missing.add(run)
