@@ -158,9 +158,37 @@ void addEach(std::vector<T> &To, const std::vector<T> &Of) {
     To[I] += Of[I];
 }
 
+/// A part that the machine has in one run only, in cycles of each (the unit
+/// "time"), is there for as long as the other run takes, too.
+uint64_t during(const Activity &A, uint64_t Own, uint64_t Other) {
+  return A.Unit == "time" && Own != 0 ? A.Count / Own * Other : 0;
+}
+
+/// By names: runs have activities that others have not.
+void addActivities(TimeReport &To, const TimeReport &Of) {
+  const auto Same = [](const std::vector<Activity> &In, const Activity &A) {
+    return std::ranges::find_if(In, [&](const Activity &Other) {
+      return Other.Unit == A.Unit && Other.Event == A.Event;
+    });
+  };
+  std::vector<Activity> Sum = To.Activities;
+  for (Activity &A : Sum) {
+    const auto Found = Same(Of.Activities, A);
+    A.Count += Found != Of.Activities.end() ? Found->Count
+                                            : during(A, To.Cycles, Of.Cycles);
+  }
+  for (const Activity &A : Of.Activities)
+    if (Same(To.Activities, A) == To.Activities.end()) {
+      Sum.push_back(A);
+      Sum.back().Count += during(A, Of.Cycles, To.Cycles);
+    }
+  To.Activities = std::move(Sum);
+}
+
 } // namespace
 
 TimeReport &TimeReport::operator+=(const TimeReport &Later) {
+  addActivities(*this, Later);
   Cycles += Later.Cycles;
   addEach(Cores, Later.Cores);
   addEach(Rasterizers, Later.Rasterizers);
@@ -171,9 +199,6 @@ TimeReport &TimeReport::operator+=(const TimeReport &Later) {
   Llc += Later.Llc;
   Link += Later.Link;
   Dram += Later.Dram;
-  for (std::size_t I = 0;
-       I != std::min(Activities.size(), Later.Activities.size()); ++I)
-    Activities[I].Count += Later.Activities[I].Count;
   StaleLoads += Later.StaleLoads;
   CommandsLeft = Later.CommandsLeft;
   OutOfOrder += Later.OutOfOrder;

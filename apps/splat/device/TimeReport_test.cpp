@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 using namespace vorion;
@@ -79,6 +80,27 @@ TEST(TimeReport, CountsAddUpAndTheMachineStays) {
   EXPECT_EQ(Sum->StaleLoads, 8U);
   EXPECT_EQ(Sum->CommandsLeft, 0U);
   EXPECT_EQ(Sum->OutOfOrder, 2U);
+}
+
+TEST(TimeReport, ActivitiesAreAddedByNames) {
+  TimeReport Sum = sample(), Later = sample();
+  Sum.Cycles = Later.Cycles = 100;
+  Sum.Activities = {{"time", "cores", 800}, {"core", "fetch", 9}};
+  Later.Activities = {{"rasterizer front end", "ray", 5},
+                      {"time", "cores", 800},
+                      {"time", "lanes that meet rays", 1600},
+                      {"core", "fetch", 9}};
+  for (TimeReport R : {Sum, Later}) {
+    R += R.Activities.size() == 2 ? Later : Sum;
+    std::map<std::string, uint64_t> Counts;
+    for (const Activity &A : R.Activities)
+      Counts[A.Unit + ": " + A.Event] = A.Count;
+    EXPECT_EQ(Counts, (std::map<std::string, uint64_t>{
+                          {"core: fetch", 18},
+                          {"rasterizer front end: ray", 5},
+                          {"time: cores", 1600},
+                          {"time: lanes that meet rays", 3200}}));
+  }
 }
 
 TEST(TimeReport, EveryMemberIsThereAndNoOther) {
