@@ -338,6 +338,9 @@ std::span<const AreaCost> areaCosts() {
       More.Adders -= backwardUnits(0)[N].Adders;
       Add("ray units", More, 0.5, "lanes that meet rays");
     }
+    // Of a batch of gradients three words more, of both batches of an agent.
+    Made.push_back(
+        {"ray units", "cores that meet rays", "register bit", 2 * 16 * 3 * 32});
     // What a pair of lanes has for gradients, with an exact divider.
     for (const DatapathUnit &U : backwardUnits(0))
       Add("backward mode", U, 0.5, RasterLane);

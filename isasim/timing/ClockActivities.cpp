@@ -159,9 +159,11 @@ void Clock::collectTimes(TimeReport &R) const {
         return C.laneWork()
                    .Covered[raster::frontEndRowOf(raster::VR_PRIMITIVE_RAY)] !=
                0;
-      }))
+      })) {
     Add("lanes that meet rays",
         Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
+    Add("cores that meet rays", Each(Shape.cores()));
+  }
   Add("pixel unit lanes", Each(uint64_t{Shape.Clusters} * Timing.Pixel.Lanes));
   uint64_t Rasterizing = 0, Tailing = 0;
   for (const RasterTime &T : R.Rasters)
