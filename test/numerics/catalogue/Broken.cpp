@@ -206,7 +206,7 @@ const std::vector<BrokenKernel> &brokenKernels() {
        {},
        {{"rasterize.cl", "vx_raster_setup((uint)records, options.cutoff,",
          "vx_raster_setup((uint)records, 0.0f,"},
-        {"blend.cl", "#define SATURATED(t) ((t) < cutoff)",
+        {"blend_rules.cl", "#define SATURATED(t) ((t) < cutoff)",
          "#define SATURATED(t) (false)"}}},
       {"list-cut-at-8",
        {},
@@ -232,7 +232,7 @@ const std::vector<BrokenKernel> &brokenKernels() {
       // (isasim/raster/HardCases_test.cpp).
       {"alpha-reaches-1",
        Path::Simt,
-       {{"blend.cl", "fmin(0.99f, ", "fmin(1.0f, "}}},
+       {{"blend_rules.cl", "fmin(0.99f, ", "fmin(1.0f, "}}},
       {"alpha-cut-at-200th",
        Path::Simt,
        {{"blend.cl", "alpha >= ALPHA_CUTOFF / 255.0f",
