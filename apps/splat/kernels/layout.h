@@ -93,8 +93,8 @@ typedef struct {
   float mean[3];                      ///< from the camera
 } splat_ray_frame;
 
-/// A Gaussian as traced rays meet it (trace.cl), in the world's axes. Vectors of
-/// three have a component for each of its own axes where they are its
+/// A Gaussian as traced rays meet it (trace.cl), in the world's axes. Vectors
+/// of three have a component for each of its own axes where they are its
 /// deviations.
 typedef struct {
   float mean[3], mean_low[3]; ///< from the camera, as high + low
