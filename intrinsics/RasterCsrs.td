@@ -30,7 +30,8 @@ def VR_OPTIONS : BankCsr<"vr_options", 0x7C4, "Datapath options."> {
                 CsrField<"skip_saturated", 5, 1, "dispatch gives no lane slot to saturated pixels">,
                 CsrField<"blend", 6, 2, "blend arithmetic, VR_BLEND_*; docs/abi.md#rasterizer">,
                 CsrField<"alpha_cutoff", 8, 2, "smallest alpha that is blended: 2^value / 255">,
-                CsrField<"degree4", 10, 1, "rays: the falloff is exp(-q^2 / 18), not exp(-q / 2)">];
+                CsrField<"degree4", 10, 1, "rays: the falloff is exp(-q^2 / 18), not exp(-q / 2)">,
+                CsrField<"low_pass", 11, 1, "rays: q is at most 2 (dx^2 + dy^2), the low-pass filter of surfels">];
 }
 def VR_CUTOFF : BankCsr<"vr_cutoff", 0x7C5, "Transmittance cut-off, float in [0, 1).">;
 def VR_GAUSSIANS : BankCsr<"vr_gaussians", 0x7C6, "Address of the records, vx_gaussian or what vr_mode.primitive says, 16-byte aligned.">;
@@ -60,7 +61,7 @@ def VR_BACKWARD : BankCsr<"vr_backward", 0x7EB, "Options of the backward mode.">
 // What one kind of primitive needs (docs/primitives.md): by number and value.
 def VR_INDEX : Csr<"vr_index", 0x7EC, Agent, Scalar, 1, "Number of the word that vr_word or vr_item accesses.">;
 def VR_WORD : Csr<"vr_word", 0x7ED, Agent, Scalar, 1, "Word vr_index, VR_WORD_*, of the bank. One that does not exist reads as 0, and a write of it does nothing.">;
-def VR_ITEM : Csr<"vr_item", 0x7EE, Lane, ReadOnly, 0, "Word vr_index of what the lane has of the batch that vr_grad_next selected: of a fragment VR_ITEM_*, of gradients as vr_grad_tag to vr_grad_syy, and three more of rays. 0 in lanes without one.">;
+def VR_ITEM : Csr<"vr_item", 0x7EE, Lane, ReadOnly, 0, "Word vr_index of what the lane has of the batch that vr_grad_next selected: of a fragment VR_ITEM_*, of gradients as vr_grad_tag to vr_grad_syy, and three more of rays, five with low_pass. 0 in lanes without one.">;
 
 // A pushed descriptor: the lane writes its fields, then vr_push.
 def VR_G_MEAN_X : Csr<"vr_g_mean_x", 0x7D0, Lane, PerLane, 0, "Float: mean, column.">;

@@ -71,13 +71,12 @@ def : FrontEndUnit<"ray", 3, "vx_ray_gaussian", "a Gaussian in 3D that the pixel
   let RegisterBits = DividerRegisterBits;
   let Source = "a dx, b dy, c dy, their two squares, the plane's two steps and its square, the weight, the half and the square of degree 4 are 11 multiplications, dx, dy and five sums 7 additions, in two cycles; a divider as VR_RECIPROCAL_EXACT; a choice of degrees; ours";
 }
-// Numbers that docs/primitives.md gives to kinds which are not built.
+// A number that docs/primitives.md gives to a kind which is not built.
 class ReservedFrontEndNumber<int number, string choice> {
   int Value = number;
   string Choice = choice;
 }
 def : ReservedFrontEndNumber<2, "wide-conic">;
-def : ReservedFrontEndNumber<4, "surfel">;
 
 // vr_options.exp. Its bodies: ExpVector.h and ScalarUnits.h of isasim/raster/.
 class ExpUnit<string choice, int number, string bound, string doc>

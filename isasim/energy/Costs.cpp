@@ -100,6 +100,11 @@ constexpr EventCost Others[] = {
      4 + 12},
     {"rasterizer gradients", "pixels of rays", RasterBuffers,
      "pixel of the buffer", 2},
+    // t dx and t dy, and their sums.
+    {"rasterizer gradients", "pixels of surfels", RasterLanes,
+     "fp32 multiplication", 2},
+    {"rasterizer gradients", "pixels of surfels", RasterLanes, "fp32 addition",
+     2},
     {"pixel unit", "visits", PixelUnit, "fp32 multiplication", 7 + 1 + 5},
     {"pixel unit", "visits", PixelUnit, "fp32 addition", 4 + 2 + 5},
     {"pixel unit", "tails", PixelUnit, "tile command", 1},
@@ -138,6 +143,18 @@ void add(std::vector<EventCost> &To, std::string_view Unit,
   Add("choice bit", U.ChoiceBits);
   Add("register bit", U.RegisterBits);
 }
+
+/// Of rays: the squares of dx and dy, their sum, a comparison and a choice.
+constexpr DatapathUnit LowPass{.Name = "low pass",
+                               .Latency = 0,
+                               .Interval = 1,
+                               .Multipliers = 2,
+                               .Adders = 2,
+                               .ProductBits = 0,
+                               .AdderBits = 0,
+                               .TableBits = 0,
+                               .Source = "beside the quotient of rays; ours",
+                               .ChoiceBits = 32};
 
 /// Where a lane has its units, in the order of datapathUnits().
 enum Place : uint8_t { Power, Exponential, Alpha, Blend };
@@ -197,6 +214,7 @@ std::span<const EventCost> eventCosts() {
       Made.push_back({"rasterizer front end", Name, RasterBuffers,
                       "pixel of the buffer", 1});
     }
+    add(Made, "rasterizer front end", LowPass.Name, LowPass);
     std::erase_if(Made, [](const EventCost &C) { return C.Count == 0; });
     return Made;
   }();
@@ -341,6 +359,13 @@ std::span<const AreaCost> areaCosts() {
     // Of a batch of gradients three words more, of both batches of an agent.
     Made.push_back(
         {"ray units", "cores that meet rays", "register bit", 2 * 16 * 3 * 32});
+    // The low pass, whose multipliers a pair's other lane has for the products
+    // of the gradients, two accumulators of a pair, and two words more.
+    Add("surfel units", LowPass, 1, "lanes that meet surfels");
+    Made.push_back(
+        {"surfel units", "lanes that meet surfels", "fp32 adder", 0.5 * 2});
+    Made.push_back({"surfel units", "cores that meet surfels", "register bit",
+                    2 * 16 * 2 * 32});
     // What a pair of lanes has for gradients, with an exact divider.
     for (const DatapathUnit &U : backwardUnits(0))
       Add("backward mode", U, 0.5, RasterLane);

@@ -236,7 +236,7 @@ TEST(Energy, KnowsAllEventsOfAMachineThatHasEverything) {
   for (const EventCost &C : eventCosts()) {
     bool Known = C.Unit == "rasterizer front end" ||
                  C.Event == "words of ranges loaded" ||
-                 C.Event == "pixels of rays";
+                 C.Event == "pixels of rays" || C.Event == "pixels of surfels";
     for (const Activity &A : Report.Activities)
       Known |= A.Unit == C.Unit && A.Event == C.Event;
     EXPECT_TRUE(Known) << C.Unit << ": " << C.Event;

@@ -111,7 +111,8 @@ uint32_t likelyValue(unsigned Number, uint8_t Choice) {
            raster::OptionsBlend.put(Choice / raster::ExpUnitCount %
                                     raster::BlendUnitCount) |
            raster::OptionsSkipSaturated.put(Choice / 27 % 2) |
-           raster::OptionsDegree4.put(Choice / 54 % 2);
+           raster::OptionsDegree4.put(Choice / 54 % 2) |
+           raster::OptionsLowPass.put(Choice / 108 % 2);
   case Csr::Cutoff:
     return std::bit_cast<uint32_t>(static_cast<float>(Choice) / 256.0F);
   case Csr::Gaussians:

@@ -5,6 +5,7 @@
 
 #include "raster/BoxWork.h"
 #include "raster/Command.h"
+#include "raster/Datapath.h"
 #include "raster/PluggedExp.h"
 #include "raster/UnitTables.h"
 
@@ -46,8 +47,7 @@ struct BackwardOptions {
   bool ClampStops = false;
   bool InRows = false;
   bool SkipSaturated = false;
-  /// Whether rays take the falloff of degree 4.
-  bool IsDegree4 = false;
+  RayFalloff Falloff{};
   float MinAlpha = 1.0F / 255.0F; ///< the smallest that is blended
   uint32_t Entry = 0;
 };
@@ -65,6 +65,7 @@ struct BackwardDatapath {
   /// @{
   BackFunction<Gaussian> Conics[ExpRowCount];
   BackFunction<RayGaussian> Rays[ExpRowCount];
+  BackFunction<RayGaussian> Surfels[ExpRowCount]; ///< rays with the low pass
   /// @}
   /// The reciprocal unit alone, in place, \p Count a multiple of 16.
   void (*Reciprocals)(Reciprocal Unit, float *Values, std::size_t Count);

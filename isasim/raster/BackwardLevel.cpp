@@ -105,7 +105,7 @@ VORION_INLINE void through(const Block<Body> &P, const typename Body::Record &G,
   store(Tile.Behind + P.At, P.Counts ? Behind + Alpha * Gain : Behind);
 
   SumsOf<Body> Parts{{Weight * Red, Weight * Green, Weight * Blue, S}};
-  Body::moments(G, P.C, P.R, Options.IsDegree4, S, Parts.Sum + 4);
+  Body::moments(G, P.C, P.R, Options.Falloff, S, Parts.Sum + 4);
   for (unsigned K = 0; K != 4 + Body::MomentCount; ++K)
     Row.Sum[K] += P.Counts ? Parts.Sum[K] : Float16(0.0F);
 }
@@ -142,8 +142,8 @@ BoxWork back(const typename Body::Record &G, const BackwardOptions &Options,
       if (Options.SkipSaturated)
         LiveInBox += countBits(bits(Live));
       const auto [Counts, Wanted] =
-          reach<Exp>(Body::power(G, C, Terms, Options.IsDegree4), G.Opacity,
-                     Live, Bound, Options.MinAlpha);
+          reach<Exp>(Body::power(G, C, Terms, Options.Falloff), G.Opacity, Live,
+                     Bound, Options.MinAlpha);
       if (bits(Counts) == 0)
         continue;
       through<Body>({C, Terms, At, Wanted, Counts}, G, Options, Tile, Row);
@@ -175,6 +175,7 @@ constexpr BackwardDatapath makeDatapath(const char *Name,
           HostSupports,
           {back<BlendedBody<VR_PRIMITIVE_CONIC>, Es>...},
           {back<BlendedBody<VR_PRIMITIVE_RAY>, Es>...},
+          {back<SurfelBody, Es>...},
           evaluateReciprocals};
 }
 

@@ -79,7 +79,7 @@ inline float reciprocalOf(Reciprocal Unit, float Alpha) {
 /// outside of its box.
 struct OffsetOfConic {
   float Dx, Dy, Power;
-  OffsetOfConic(const Gaussian &G, float Px, float Py, bool)
+  OffsetOfConic(const Gaussian &G, float Px, float Py, RayFalloff)
       : Dx(G.Mean[0] - Px), Dy(G.Mean[1] - Py),
         Power(-0.5F * (G.Conic[0] * Dx * Dx + G.Conic[2] * Dy * Dy) -
               G.Conic[1] * Dx * Dy) {
@@ -100,13 +100,15 @@ struct OffsetOfConic {
 /// The same of a ray.
 struct OffsetOfRay {
   float U, V, Q, Power;
-  bool IsDegree4;
-  OffsetOfRay(const RayGaussian &G, float Px, float Py, bool IsDegree4)
-      : IsDegree4(IsDegree4) {
+  float Dx, Dy;             ///< from the mean to the pixel
+  bool IsOnPicture = false; ///< the low pass decides
+  RayFalloff Falloff;
+  OffsetOfRay(const RayGaussian &G, float Px, float Py, RayFalloff Falloff)
+      : Falloff(Falloff) {
     const float Column = static_cast<float>(G.First & 0xFFFF) + 0.5F;
     const float Row = static_cast<float>(G.First >> 16) + 0.5F;
-    const float Dx = (Px - Column) - G.Mean[0];
-    const float Dy = (Py - Row) - G.Mean[1];
+    Dx = (Px - Column) - G.Mean[0];
+    Dy = (Py - Row) - G.Mean[1];
     const float Across = G.Factor[0] * Dx + G.Factor[1] * Dy;
     const float Down = G.Factor[2] * Dy;
     const float Beside = Across * Across + Down * Down;
@@ -115,15 +117,26 @@ struct OffsetOfRay {
     Q = Beside / Far;
     U = Across * (L / Far);
     V = Down * (L / Far);
-    Power = IsDegree4 ? -1.0F / 18.0F * Q * Q : -0.5F * Q;
+    bool IsMet = L > 0.0F;
+    if (const float Blurred = 2.0F * (Dx * Dx + Dy * Dy);
+        Falloff.IsLowPass && !(IsMet && Q <= Blurred)) {
+      IsOnPicture = IsMet = true;
+      Q = Blurred;
+    }
+    Power = Falloff.IsDegree4 ? -1.0F / 18.0F * Q * Q : -0.5F * Q;
     const bool IsInBox = Px >= Column && Py >= Row &&
                          Px <= static_cast<float>(G.Last & 0xFFFF) + 0.5F &&
                          Py <= static_cast<float>(G.Last >> 16) + 0.5F;
-    if (!(L > 0.0F) || !IsInBox)
+    if (!IsMet || !IsInBox)
       Power = NotANumber;
   }
   void moments(float S, Sums &To) const {
-    const float T = IsDegree4 ? S * Q : S;
+    const float T = Falloff.IsDegree4 ? S * Q : S;
+    if (IsOnPicture) {
+      To[12] = T * Dx;
+      To[13] = T * Dy;
+      return;
+    }
     To[4] = T * U;
     To[5] = T * V;
     To[6] = T * U * U;
@@ -158,7 +171,7 @@ std::vector<GradientSums> scalarLoop(const SceneOf<Record> &S,
         const std::size_t I = S.at(Column, Row);
         const OffsetOf<Record> Offset(
             G, static_cast<float>(S.X + Column) + 0.5F,
-            static_cast<float>(S.Y + Row) + 0.5F, O.IsDegree4);
+            static_cast<float>(S.Y + Row) + 0.5F, O.Falloff);
         const float Power = Offset.Power;
         if (S.Last[I] <= Entry || !(Power <= 0.0F))
           continue;
@@ -193,11 +206,11 @@ std::vector<GradientSums> scalarLoop(const SceneOf<Record> &S,
 template <typename Record>
 std::vector<GradientSums> onLevel(const BackwardDatapath &Level,
                                   const SceneOf<Record> &S, BackwardOptions O) {
-  const BackFunction<Record> Back = [&Level] {
+  const BackFunction<Record> Back = [&] {
     if constexpr (std::is_same_v<Record, Gaussian>)
       return Level.Conics[0];
     else
-      return Level.Rays[0];
+      return (O.Falloff.IsLowPass ? Level.Surfels : Level.Rays)[0];
   }();
   auto Tile = std::make_unique<BackwardBuffer>();
   Tile->reset(S.X, S.Y, S.Width, S.Height);

@@ -12,7 +12,8 @@ static BackFunction<Record> backFunction(const Job &J,
   if constexpr (std::is_same_v<Record, Gaussian>)
     return Lanes.Conics[expRow(J.Units.Exp)];
   else
-    return Lanes.Rays[expRow(J.Units.Exp)];
+    return (J.Backward.Falloff.IsLowPass ? Lanes.Surfels
+                                         : Lanes.Rays)[expRow(J.Units.Exp)];
 }
 
 BackwardRun::BackwardRun(const RasterAgent &Agent, RasterMemory &Global,

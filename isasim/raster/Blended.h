@@ -67,7 +67,7 @@ public:
   }
 
   VORION_INLINE static Float16 power(const Gaussian &, const Columns &C,
-                                     const Row &R, bool) {
+                                     const Row &R, RayFalloff) {
     return -0.5F * (C.AX2 + R.CY2) - C.BX * R.Dy;
   }
 
@@ -75,7 +75,7 @@ public:
   /// @{
   static constexpr unsigned MomentCount = 5;
   VORION_INLINE static void moments(const Gaussian &, const Columns &C,
-                                    const Row &R, bool, Float16 S,
+                                    const Row &R, RayFalloff, Float16 S,
                                     Float16 *To) {
     To[0] = S * -C.Dx;
     To[1] = S * -R.Dy;
@@ -88,7 +88,7 @@ public:
 
 /// Numbers that count pixels are exact, and so are their differences.
 template <> class BlendedBody<VR_PRIMITIVE_RAY> {
-private:
+protected:
   static constexpr float Degree4 = -1.0F / 18.0F;
 
   /// Centres of the first and the last column or row of the box.
@@ -121,10 +121,12 @@ public:
   struct Columns {
     unsigned First;
     Int16 Inside;
+    Float16 Dx; ///< from the mean to the pixel
     Float16 AX; ///< a * dx
     Float16 LX; ///< 1 + the slope along columns * dx
   };
   struct Row {
+    float Dy;  ///< from the mean to the pixel
     float BY;  ///< b * dy
     float V;   ///< c * dy
     float CY2; ///< (c * dy)^2
@@ -141,13 +143,13 @@ public:
     const Float16 Centre = load(CentreX + First);
     const Ends Box = across(G);
     const Float16 Dx = Centre - Box.First - G.Mean[0];
-    return {First, Box(Centre), G.Factor[0] * Dx, 1.0F + G.Slope[0] * Dx};
+    return {First, Box(Centre), Dx, G.Factor[0] * Dx, 1.0F + G.Slope[0] * Dx};
   }
 
   VORION_INLINE static Row row(const RayGaussian &G, float CentreY) {
     const float Dy = CentreY - down(G).First - G.Mean[1];
     const float V = G.Factor[2] * Dy;
-    return {G.Factor[1] * Dy, V, V * V, G.Slope[1] * Dy};
+    return {Dy, G.Factor[1] * Dy, V, V * V, G.Slope[1] * Dy};
   }
 
   VORION_INLINE static Meeting meet(const RayGaussian &G, const Columns &C,
@@ -160,23 +162,27 @@ public:
   }
 
   VORION_INLINE static Float16 power(const RayGaussian &G, const Columns &C,
-                                     const Row &R, bool IsDegree4) {
+                                     const Row &R, RayFalloff Falloff) {
     const Meeting M = meet(G, C, R);
-    const Float16 Power = IsDegree4 ? Degree4 * M.Q * M.Q : -0.5F * M.Q;
     // Where the plane is not above 0, the ray has the Gaussian behind it.
-    return M.L > 0.0F ? Power : Float16(__builtin_nanf(""));
+    Float16 Q = M.L > 0.0F ? M.Q : Float16(__builtin_nanf(""));
+    if (Falloff.IsLowPass) {
+      const Float16 Blurred = blurred(C, R);
+      Q = Q <= Blurred ? Q : Blurred;
+    }
+    return Falloff.IsDegree4 ? Degree4 * Q * Q : -0.5F * Q;
   }
 
   /// \name Backward, as the conic's
   /// @{
   static constexpr unsigned MomentCount = 8;
   VORION_INLINE static void moments(const RayGaussian &G, const Columns &C,
-                                    const Row &R, bool IsDegree4, Float16 S,
+                                    const Row &R, RayFalloff Falloff, Float16 S,
                                     Float16 *To) {
     const Meeting M = meet(G, C, R);
     const Float16 K = M.L / M.Far;
     const Float16 U = M.U * K, V = R.V * K;
-    const Float16 T = IsDegree4 ? S * M.Q : S;
+    const Float16 T = Falloff.IsDegree4 ? S * M.Q : S;
     const Float16 Deep = T * M.Q;
     To[0] = T * U;
     To[1] = T * V;
@@ -188,6 +194,34 @@ public:
     To[7] = Deep * M.Q;
   }
   /// @}
+
+protected:
+  /// The q of the low pass: on the picture, of a variance of 1/2 px^2.
+  VORION_INLINE static Float16 blurred(const Columns &C, const Row &R) {
+    return 2.0F * (C.Dx * C.Dx + R.Dy * R.Dy);
+  }
+};
+
+/// Rays with the low pass: a pixel has either the moments of where its ray
+/// meets the Gaussian, or those of the picture.
+class SurfelBody : public BlendedBody<VR_PRIMITIVE_RAY> {
+  using Ray = BlendedBody<VR_PRIMITIVE_RAY>;
+
+public:
+  static constexpr unsigned MomentCount = Ray::MomentCount + 2;
+  VORION_INLINE static void moments(const RayGaussian &G, const Columns &C,
+                                    const Row &R, RayFalloff Falloff, Float16 S,
+                                    Float16 *To) {
+    const Meeting M = meet(G, C, R);
+    const Float16 Blurred = blurred(C, R);
+    const Int16 Meets = (M.L > 0.0F) & (M.Q <= Blurred);
+    Ray::moments(G, C, R, Falloff, S, To);
+    for (unsigned K = 0; K != Ray::MomentCount; ++K)
+      To[K] = Meets ? To[K] : Float16(0.0F);
+    const Float16 T = Falloff.IsDegree4 ? S * Blurred : S;
+    To[8] = Meets ? Float16(0.0F) : T * C.Dx;
+    To[9] = Meets ? Float16(0.0F) : T * R.Dy;
+  }
 };
 
 } // namespace

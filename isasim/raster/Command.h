@@ -47,8 +47,8 @@ static_assert(sizeof(Pixel) == 16, "docs/abi.md: four floats a pixel");
 struct GradientSums {
   uint32_t Tag = 0;
   /// dL/dr, dL/dg, dL/db; s, s dx, s dy, s dx dx, s dx dy, s dy dy; and of
-  /// rays, whose other sums docs/abi.md has, three more.
-  std::array<float, 12> Sums{};
+  /// rays, whose other sums docs/abi.md has, three more, five with a low pass.
+  std::array<float, 14> Sums{};
 
   bool operator==(const GradientSums &) const = default;
 };

@@ -44,6 +44,12 @@ struct TileBuffer {
   void set(unsigned Row, unsigned Column, const Pixel &P);
 };
 
+/// How the density of a Gaussian that rays meet falls off from its centre.
+struct RayFalloff {
+  bool IsDegree4 = false; ///< by exp(-q^2 / 18)
+  bool IsLowPass = false; ///< q is at most that of a blur on the picture
+};
+
 /// What a command chooses in the datapath.
 struct BlendOptions {
   /// A pixel is saturated if its transmittance would fall below this.
@@ -51,8 +57,7 @@ struct BlendOptions {
   /// The smallest alpha that is blended.
   float MinAlpha;
   bool SkipSaturated;
-  /// Whether rays take the falloff of degree 4.
-  bool IsDegree4 = false;
+  RayFalloff Falloff{};
   /// Whether TileBuffer::Last gets Entry + 1, for the entry of the list that is
   /// blended next.
   bool KeepLast = false;

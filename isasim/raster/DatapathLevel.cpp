@@ -44,8 +44,8 @@ BoxWork blend(const typename Body::Record &G, const BlendOptions &Options,
         LiveInBox += countBits(bits(Open));
 
       const auto [Counts, Wanted] =
-          reach<Exp>(Body::power(G, C, Terms, Options.IsDegree4), G.Opacity,
-                     Open, Bound, Options.MinAlpha);
+          reach<Exp>(Body::power(G, C, Terms, Options.Falloff), G.Opacity, Open,
+                     Bound, Options.MinAlpha);
       if (bits(Counts) == 0)
         continue;
       const Float16 Alpha = Wanted < MaxAlpha ? Wanted : Float16(MaxAlpha);

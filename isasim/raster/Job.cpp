@@ -20,7 +20,8 @@ static BlendOptions blendOptions(const Command &C) {
   O.MinAlpha =
       static_cast<float>(1U << OptionsAlphaCutoff.get(C.Options)) / 255.0F;
   O.SkipSaturated = OptionsSkipSaturated.get(C.Options) != 0;
-  O.IsDegree4 = OptionsDegree4.get(C.Options) != 0;
+  O.Falloff = {OptionsDegree4.get(C.Options) != 0,
+               OptionsLowPass.get(C.Options) != 0};
   O.KeepLast = ModeKeepLast.get(C.Mode) != 0;
   return O;
 }
@@ -32,7 +33,7 @@ static BackwardOptions backwardOptions(const Command &C,
   O.ClampStops = BackwardClampStops.get(C.Backward) != 0;
   O.InRows = BackwardInRows.get(C.Backward) != 0;
   O.SkipSaturated = Forward.SkipSaturated;
-  O.IsDegree4 = Forward.IsDegree4;
+  O.Falloff = Forward.Falloff;
   O.MinAlpha = Forward.MinAlpha;
   return O;
 }
@@ -98,13 +99,14 @@ static bool isKnownTraining(const Command &C, const Job &J) {
 
 /// Opaque primitives are tested against depths and do nothing else. Others have
 /// no fragments to hand over. What lanes push are conics; rays alone have a
-/// degree.
+/// falloff.
 static bool isKnownPrimitive(const Command &C, const Job &J) {
+  const uint32_t OfFalloff = OptionsDegree4.put(1) | OptionsLowPass.put(1);
   if (J.Units.FrontEnd >= std::size(FrontEnds))
     return false;
   if (!J.Units.isOpaque())
     return !J.HandsFragments &&
-           (J.Units.isConic() ? !J.Blend.IsDegree4 : !J.TakesPushed);
+           (J.Units.isConic() ? (C.Options & OfFalloff) == 0 : !J.TakesPushed);
   const uint32_t Allowed =
       ModePrimitive.put(ModePrimitive.mask()) | ModeFragments.put(1);
   const uint32_t KnownDepth = DepthFunction.put(DepthFunction.mask()) |
@@ -131,7 +133,8 @@ static bool isKnown(const Command &C, const Job &J) {
   const uint32_t KnownOptions =
       OptionsExp.put(OptionsExp.mask()) | OptionsStopAtEqual.put(1) |
       OptionsSkipSaturated.put(1) | OptionsBlend.put(OptionsBlend.mask()) |
-      OptionsAlphaCutoff.put(OptionsAlphaCutoff.mask()) | OptionsDegree4.put(1);
+      OptionsAlphaCutoff.put(OptionsAlphaCutoff.mask()) |
+      OptionsDegree4.put(1) | OptionsLowPass.put(1);
   const uint32_t Parts = ZtileCount.get(C.Ztile);
   return (C.Mode & ~KnownMode) == 0 && (C.Options & ~KnownOptions) == 0 &&
          J.Units.Exp < ExpUnitCount && J.Units.Blend < BlendUnitCount &&

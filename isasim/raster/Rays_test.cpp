@@ -140,7 +140,8 @@ struct Result {
 };
 
 /// The square of the distance, or NaN where the ray has the Gaussian behind.
-float squareAt(const RayGaussian &G, unsigned X, unsigned Y) {
+float squareAt(const RayGaussian &G, unsigned X, unsigned Y,
+               bool IsLowPass = false) {
   const float Dx =
       (static_cast<float>(X) - static_cast<float>(G.First & 0xFFFF)) -
       G.Mean[0];
@@ -150,12 +151,14 @@ float squareAt(const RayGaussian &G, unsigned X, unsigned Y) {
   const float V = G.Factor[2] * Dy;
   const float Beside = U * U + V * V;
   const float L = (1.0F + G.Slope[0] * Dx) + G.Slope[1] * Dy;
-  return L > 0.0F ? Beside / (L * L + G.Near * Beside) : NotANumber;
+  const float Q = L > 0.0F ? Beside / (L * L + G.Near * Beside) : NotANumber;
+  // fmin() takes the number of a number and none.
+  return IsLowPass ? std::fmin(Q, 2.0F * (Dx * Dx + Dy * Dy)) : Q;
 }
 
 /// docs/abi.md read aloud, one pixel at a time, for a whole tile at (0, 0).
 Result onePixelAtATime(const RayScene &S, uint32_t Exp, uint32_t Blend,
-                       bool IsDegree4) {
+                       RayFalloff Falloff = {}) {
   Result Out;
   Out.Pixels.assign(64 * 64, {0, 0, 0, 1});
   std::vector<bool> Saturated(Out.Pixels.size());
@@ -167,8 +170,8 @@ Result onePixelAtATime(const RayScene &S, uint32_t Exp, uint32_t Blend,
           Y < G.First >> 16 || Y > G.Last >> 16)
         continue;
       ++Fragments;
-      const float Q = squareAt(G, X, Y);
-      const float Power = IsDegree4 ? -1.0F / 18.0F * Q * Q : -0.5F * Q;
+      const float Q = squareAt(G, X, Y, Falloff.IsLowPass);
+      const float Power = Falloff.IsDegree4 ? -1.0F / 18.0F * Q * Q : -0.5F * Q;
       if (Saturated[I] || !(Power <= 0.0F))
         continue;
       const float Alpha = std::fmin(0.99F, G.Opacity * scalar::exp(Exp, Power));
@@ -198,13 +201,13 @@ Result onePixelAtATime(const RayScene &S, uint32_t Exp, uint32_t Blend,
 }
 
 Result onLevel(const Datapath &Level, const RayScene &S, uint32_t Exp,
-               uint32_t Blend, bool IsDegree4) {
+               uint32_t Blend, RayFalloff Falloff) {
   auto Tile = std::make_unique<TileBuffer>();
   Tile->reset(0, 0, 64, 64);
   const BlendOptions Options{.StopBelow = S.Cutoff,
                              .MinAlpha = 1.0F / 255.0F,
                              .SkipSaturated = false,
-                             .IsDegree4 = IsDegree4};
+                             .Falloff = Falloff};
   Result Out;
   for (const RayGaussian &G : S.Records) {
     const BoxWork Work = Level.Rays.Of[Exp][Blend](G, Options, *Tile);
@@ -218,15 +221,18 @@ Result onLevel(const Datapath &Level, const RayScene &S, uint32_t Exp,
   return Out;
 }
 
+constexpr RayFalloff Falloffs[] = {
+    {false, false}, {true, false}, {false, true}, {true, true}};
+
 TEST(Rays, EveryLevelHasTheBitsOfTheScalarLoop) {
   for (const Datapath *Level : datapaths()) {
     uint32_t Seed = 0;
     for (const uint32_t Exp : {VR_EXP_EXACT, VR_EXP_TABLE, VR_EXP_POLY3})
       for (const uint32_t Blend : {VR_BLEND_FP32, VR_BLEND_BF16})
-        for (const bool IsDegree4 : {false, true}) {
+        for (const RayFalloff Falloff : Falloffs) {
           const RayScene S = randomRays(Seed++, 60);
-          const Result Right = onePixelAtATime(S, Exp, Blend, IsDegree4);
-          const Result Is = onLevel(*Level, S, Exp, Blend, IsDegree4);
+          const Result Right = onePixelAtATime(S, Exp, Blend, Falloff);
+          const Result Is = onLevel(*Level, S, Exp, Blend, Falloff);
           ASSERT_EQ(Is.Pixels, Right.Pixels) << Level->Name << ' ' << Seed;
           EXPECT_EQ(Is.Fragments, Right.Fragments);
           EXPECT_EQ(Is.Blends, Right.Blends);
@@ -238,10 +244,15 @@ TEST(Rays, EveryLevelHasTheBitsOfTheScalarLoop) {
 }
 
 /// A tile of 40 x 24 pixels that rays drew, and a gradient of it.
-SceneOf<RayGaussian> drawnRays(uint32_t Seed, bool IsDegree4) {
+SceneOf<RayGaussian> drawnRays(uint32_t Seed, RayFalloff Falloff = {}) {
   RayScene Rays = randomRays(Seed, 60);
+  // Of smaller ones the low pass has more.
+  if (Falloff.IsLowPass)
+    for (std::size_t N = 0; N < Rays.Records.size(); N += 2)
+      for (float &F : Rays.Records[N].Factor)
+        F *= 30;
   const Result Drawn =
-      onePixelAtATime(Rays, VR_EXP_EXACT, VR_BLEND_FP32, IsDegree4);
+      onePixelAtATime(Rays, VR_EXP_EXACT, VR_BLEND_FP32, Falloff);
   SceneOf<RayGaussian> S{Rays.Records, 0, 0, 40, 24, {}, {}, {}};
   std::mt19937 Engine(Seed);
   const auto Any = [&] {
@@ -264,15 +275,17 @@ TEST(Rays, EveryLevelHasTheSumsOfTheScalarLoop) {
       O.Unit = static_cast<Reciprocal>(Seed % ReciprocalUnitCount);
       O.ClampStops = Seed % 3 == 0;
       O.InRows = Seed % 2 == 0;
-      O.IsDegree4 = Seed % 4 == 1;
-      const auto S = drawnRays(Seed, O.IsDegree4);
+      O.Falloff = Falloffs[Seed % std::size(Falloffs)];
+      const auto S = drawnRays(Seed, O.Falloff);
       const auto Right = scalarLoop(S, O), Is = onLevel(*Level, S, O);
-      unsigned Deep = 0;
+      unsigned Deep = 0, OnPicture = 0;
       for (std::size_t I = 0; I != Right.size(); ++I) {
         ASSERT_EQ(Is[I], Right[I]) << Level->Name << ' ' << Seed << ' ' << I;
         Deep += Right[I].Sums[11] != 0;
+        OnPicture += Right[I].Sums[13] != 0;
       }
-      EXPECT_GT(Deep, 10U);
+      EXPECT_GT(Deep, 3U);
+      EXPECT_EQ(OnPicture != 0, O.Falloff.IsLowPass);
     }
 }
 
@@ -367,14 +380,15 @@ TEST_F(RaysTest, ACommandBlendsAList) {
   set(Csr::Cutoff, 1e-4F);
   RayScene Own = S;
   Own.Cutoff = 1e-4F;
-  const Result Right = onePixelAtATime(Own, VR_EXP_EXACT, VR_BLEND_FP32, false);
+  const Result Right = onePixelAtATime(Own, VR_EXP_EXACT, VR_BLEND_FP32);
   EXPECT_EQ(pixels(), Right.Pixels);
   EXPECT_EQ(Agent.counters().Blends, Right.Blends);
 }
 
-TEST_F(RaysTest, ABackwardCommandHandsOverTwelveSums) {
-  const SceneOf<RayGaussian> S = drawnRays(5, false);
-  configureRays(S.Gaussians, ModeBackward.put(1));
+TEST_F(RaysTest, ABackwardCommandHandsOverFourteenSums) {
+  const RayFalloff Falloff{.IsLowPass = true};
+  const SceneOf<RayGaussian> S = drawnRays(5, Falloff);
+  configureRays(S.Gaussians, ModeBackward.put(1), OptionsLowPass.put(1));
   set(Csr::TileShape,
       TileShapeWidth.put(S.Width) | TileShapeHeight.put(S.Height));
   set(Csr::Last, Lasts);
@@ -388,7 +402,7 @@ TEST_F(RaysTest, ABackwardCommandHandsOverTwelveSums) {
   set(Csr::Start, 1U);
   while (Unit.step()) {
   }
-  const auto Right = scalarLoop(S, {});
+  const auto Right = scalarLoop(S, {.Falloff = Falloff});
   for (uint32_t Next; (Next = Agent.read(Csr::GradNext, 0)) != 0;) {
     for (unsigned L = 0; L != GradNextCount.get(Next); ++L) {
       const GradientSums &Want =
@@ -417,6 +431,23 @@ TEST_F(RaysTest, BehindTheRayIsNothing) {
   for (unsigned Y = 0; Y != 64; ++Y)
     for (unsigned X = 26; X != 64; ++X)
       EXPECT_EQ(Half[Y * 64 + X].T, 1) << X << ' ' << Y;
+}
+
+TEST_F(RaysTest, ALowPassIsAPointOfTheMeansPixel) {
+  // A disc from its edge: no ray is within 3 deviations of it.
+  RayGaussian G = near();
+  G.Factor[0] = G.Factor[2] = 1e6F;
+  G.Mean[0] = 1.5F;
+  EXPECT_EQ(covered(draw(G)), 0U);
+  const std::vector<Pixel> Blurred = draw(G, OptionsLowPass.put(1));
+  // (0.5, 0) from it, and (1.5, 1).
+  EXPECT_NEAR(Blurred[13 * 64 + 21].T, 1 - 0.9F * std::exp(-0.25F), 1e-6F);
+  EXPECT_NEAR(Blurred[14 * 64 + 23].T, 1 - 0.9F * std::exp(-3.25F), 1e-6F);
+  // Behind the plane there is the picture alone.
+  G = near();
+  G.Slope[0] = -2;
+  EXPECT_NEAR(draw(G, OptionsLowPass.put(1))[13 * 64 + 22].T,
+              1 - 0.9F * std::exp(-1.0F), 1e-6F);
 }
 
 TEST_F(RaysTest, DegreeFourIsFlatter) {
@@ -476,7 +507,8 @@ TEST_F(RaysTest, CommandsThatRaysDoNotHaveAreRefused) {
       {Csr::Mode, Mode | ModePushed.put(1), VR_BAD_MODE},
       {Csr::Mode, Mode | ModeFragments.put(1), VR_BAD_MODE},
       {Csr::Options, OptionsDegree4.put(1), VR_OK},
-      {Csr::Options, 1U << 11, VR_BAD_MODE},
+      {Csr::Options, OptionsLowPass.put(1), VR_OK},
+      {Csr::Options, 1U << 12, VR_BAD_MODE},
       {Csr::Ztile, ZtileCount.put(2), VR_OK},
       {Csr::TailCount, 3, VR_BAD_TAIL},
   };
@@ -488,8 +520,11 @@ TEST_F(RaysTest, CommandsThatRaysDoNotHaveAreRefused) {
         << std::hex << static_cast<unsigned>(C.Where) << ' ' << C.Value;
     Agent.read(Csr::GradNext, 0);
   }
-  configure({}, {.Options = OptionsDegree4.put(1)});
-  EXPECT_EQ(start(), VR_BAD_MODE);
+  for (const uint32_t Falloff :
+       {OptionsDegree4.put(1), OptionsLowPass.put(1)}) {
+    configure({}, {.Options = Falloff});
+    EXPECT_EQ(start(), VR_BAD_MODE);
+  }
 }
 
 } // namespace

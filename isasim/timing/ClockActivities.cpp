@@ -107,6 +107,10 @@ void Clock::collectRasters(TimeReport &R) const {
   Add("rasterizer gradients", "pixels", Work.Gradients);
   if (Work.RayGradients != 0)
     Add("rasterizer gradients", "pixels of rays", Work.RayGradients);
+  if (Work.SurfelGradients != 0)
+    Add("rasterizer gradients", "pixels of surfels", Work.SurfelGradients);
+  if (Work.LowPassed != 0)
+    Add("rasterizer front end", "low pass", Work.LowPassed);
   if (Work.allCovered() != 0) {
     for (size_t N = 1; N != Work.Covered.size(); ++N)
       if (Work.Covered[N] != 0)
@@ -155,14 +159,20 @@ void Clock::collectTimes(TimeReport &R) const {
   Add("rasterizer lanes",
       Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
   // A machine that no command asks for rays is one without their units.
+  const auto Lanes = Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes);
   if (std::ranges::any_of(Rasters, [](const RasterClock &C) {
         return C.laneWork()
                    .Covered[raster::frontEndRowOf(raster::VR_PRIMITIVE_RAY)] !=
                0;
       })) {
-    Add("lanes that meet rays",
-        Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
+    Add("lanes that meet rays", Lanes);
     Add("cores that meet rays", Each(Shape.cores()));
+  }
+  if (std::ranges::any_of(Rasters, [](const RasterClock &C) {
+        return C.laneWork().LowPassed != 0;
+      })) {
+    Add("lanes that meet surfels", Lanes);
+    Add("cores that meet surfels", Each(Shape.cores()));
   }
   Add("pixel unit lanes", Each(uint64_t{Shape.Clusters} * Timing.Pixel.Lanes));
   uint64_t Rasterizing = 0, Tailing = 0;

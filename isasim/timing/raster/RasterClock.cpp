@@ -278,10 +278,12 @@ void RasterClock::take() {
 
 void RasterClock::countBlends() {
   const uint64_t Blends = Work.command().Counts.Blends;
-  if (task().IsBackward)
+  if (task().IsBackward) {
     (task().Units.isConic() ? OfLanes.Gradients : OfLanes.RayGradients) +=
         Blends;
-  else if (task().Units.isOpaque())
+    if (task().Blend.Falloff.IsLowPass)
+      OfLanes.SurfelGradients += Blends;
+  } else if (task().Units.isOpaque())
     OfLanes.Passed += Blends;
   else
     OfLanes.Blended[blendOf(task().Units)] += Blends;
@@ -413,6 +415,8 @@ void RasterClock::dispatch(const GaussianWork &G) {
   Spent.LaneSlots += P.Slots;
   if (!task().Units.isConic())
     OfLanes.Covered[frontEndOf(task().Units)] += P.Slots;
+  if (task().Blend.Falloff.IsLowPass)
+    OfLanes.LowPassed += P.Slots;
   if (!task().Units.isOpaque())
     OfLanes.Evaluated[expOf(task().Units)] += P.Slots;
   spend(RasterCycle::Blend, std::max<uint64_t>(P.Cycles, Timing.ClipCycles));

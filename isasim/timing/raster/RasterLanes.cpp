@@ -95,6 +95,8 @@ LaneWork &LaneWork::operator+=(const LaneWork &Other) {
     Blended[N] += Other.Blended[N];
   Gradients += Other.Gradients;
   RayGradients += Other.RayGradients;
+  LowPassed += Other.LowPassed;
+  SurfelGradients += Other.SurfelGradients;
   for (size_t N = 0; N != Covered.size(); ++N)
     Covered[N] += Other.Covered[N];
   Passed += Other.Passed;
