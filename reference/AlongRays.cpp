@@ -17,6 +17,9 @@
 namespace vorion::reference {
 namespace {
 
+/// Of the low pass on the picture, px^2.
+constexpr double LowPassVariance = 0.5;
+
 /// Two depths that are rounded to fp32 may change places within this.
 constexpr double DepthRounding = 0x1p-23;
 
@@ -28,6 +31,12 @@ struct Body {
   glm::dvec3 Squares; ///< of the deviations
   double Widest;      ///< the largest of these
   double Deviation;   ///< where alpha is the least that may be blended, squared
+  glm::dvec2 Place;   ///< of the mean, px, with a low pass
+};
+
+/// What a pixel sees of a Gaussian.
+struct SeenBody : Seen {
+  bool IsOnPicture = false; ///< the low pass has more than the ray
 };
 
 /// v^T M^-1 v of a symmetric M, its entries being xx, xy, yy.
@@ -77,13 +86,16 @@ struct Bundle {
   std::vector<std::optional<PixelRay>> Rays;
   std::vector<double> Blurs; ///< how far across a ray the dilation reaches,
                              ///< squared, a unit of depth away
+  std::vector<glm::dvec2> Places; ///< px
   const PixelRay *First = nullptr;
   double Turn = 0, Step = 0, Blur = 0; ///< the most of any, from the first
 
-  Bundle(const Camera<double> &C, double Dilation, const Rect &Pixels) {
+  Bundle(const Camera<double> &C, const Options &O, const Rect &Pixels) {
+    const double Dilation = O.LowPass ? LowPassVariance : O.Dilation;
     for (int Y = Pixels.Y0; Y < Pixels.Y1; ++Y)
       for (int X = Pixels.X0; X < Pixels.X1; ++X) {
-        Rays.push_back(rayAt(C, {X + 0.5, Y + 0.5}));
+        Places.emplace_back(X + 0.5, Y + 0.5);
+        Rays.push_back(rayAt(C, Places.back()));
         Blurs.push_back(Rays.back() ? blurOf(*Rays.back(), Dilation) : 0);
       }
     for (std::size_t X = 0; X < Rays.size(); ++X) {
@@ -137,20 +149,24 @@ public:
       B.Deviation =
           2 * std::log(G.Opacities[I] /
                        (leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand)));
+      if (O.LowPass)
+        B.Place = C.Focal * glm::dvec2(B.Mean) /
+                      (C.Optics.Model->IsParallel ? 1 : B.Mean.z) +
+                  C.Principal;
       Bodies.push_back(B);
     }
   }
 
   /// What each pixel of \p Of sees, front to back.
-  std::vector<std::vector<Seen>> see(const Bundle &Of) const {
-    std::vector<std::vector<Seen>> Lists(Of.Rays.size());
+  std::vector<std::vector<SeenBody>> see(const Bundle &Of) const {
+    std::vector<std::vector<SeenBody>> Lists(Of.Rays.size());
     if (!Of.First)
       return Lists;
     for (std::size_t I = 0; I < Bodies.size(); ++I)
       if (Of.reaches(Bodies[I]))
         for (std::size_t X = 0; X < Lists.size(); ++X)
           if (Of.Rays[X])
-            see(I, *Of.Rays[X], Of.Blurs[X], Lists[X]);
+            see(I, *Of.Rays[X], Of.Blurs[X], Of.Places[X], Lists[X]);
     for (auto &List : Lists)
       std::sort(List.begin(), List.end());
     return Lists;
@@ -173,7 +189,7 @@ public:
 
 private:
   void see(std::size_t I, const PixelRay &R, double Blur,
-           std::vector<Seen> &List) const {
+           const glm::dvec2 &Place, std::vector<SeenBody> &List) const {
     const Body &B = Bodies[I];
     const glm::dvec3 From = B.Mean - R.Origin;
     if (By == RayDepths::Ray)
@@ -188,19 +204,28 @@ private:
     if (!(Across <= B.Deviation * (B.Widest + Blur * Far * Far)))
       return;
     const double Ahead = C.Optics.Model->IsParallel ? 1 : ahead(B, R, From);
-    if (Ahead < -DoubtBand)
+    if (Ahead < -DoubtBand && !O.LowPass)
       return;
-    if (const double Wanted = wanted(B, G.Opacities[I], R, From, Far);
-        Wanted >= leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand))
-      List.push_back({By == RayDepths::Own    ? Depth
-                      : C.Optics.byDistance() ? glm::length(B.Mean)
-                                              : B.Mean.z,
-                      static_cast<int32_t>(I), Ahead < 0 ? 0 : Wanted,
-                      Ahead <= DoubtBand});
+    double Wanted = Ahead < 0 ? 0 : wanted(B, G.Opacities[I], R, From, Far);
+    bool IsOnPicture = false, IsBetween = false;
+    if (O.LowPass) {
+      const glm::dvec2 Off = Place - B.Place;
+      const double Blurred = G.Opacities[I] * std::exp(-glm::dot(Off, Off));
+      IsOnPicture = Blurred > Wanted;
+      IsBetween = near(Wanted, Blurred);
+      Wanted = std::max(Wanted, Blurred);
+    }
+    if (Wanted >= leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand))
+      List.push_back({{By == RayDepths::Own    ? Depth
+                       : C.Optics.byDistance() ? glm::length(B.Mean)
+                                               : B.Mean.z,
+                       static_cast<int32_t>(I), Wanted,
+                       std::abs(Ahead) <= DoubtBand || IsBetween},
+                      IsOnPicture});
   }
 
   void seeAlong(std::size_t I, const PixelRay &R, const glm::dvec3 &From,
-                std::vector<Seen> &List) const {
+                std::vector<SeenBody> &List) const {
     const Meeting M = meet(Bodies[I], R, From);
     const double Depth = C.Optics.byDistance()
                              ? M.Along
@@ -211,7 +236,7 @@ private:
     if ((IsSeen || IsAtOrigin) &&
         Wanted >= leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand))
       List.push_back(
-          {Depth, static_cast<int32_t>(I), IsSeen ? Wanted : 0, IsAtOrigin});
+          {{Depth, static_cast<int32_t>(I), IsSeen ? Wanted : 0, IsAtOrigin}});
   }
 
   /// Before the clamp.
@@ -247,6 +272,7 @@ private:
 struct Blended {
   int32_t Index;
   double Alpha, Wanted, T;
+  bool IsOnPicture;
 };
 
 /// Of the ray's nearest point to the mean by the covariance: what is left of it
@@ -274,8 +300,13 @@ glm::dvec3 nearestOverCovariance(const Body &B, const glm::dvec3 &Scales,
 /// What one Gaussian gets of the pixels of a tile.
 struct RaySums {
   glm::dvec3 Color{0}, Mean{0}, Scales{0}, Turn{0}; ///< Turn: by its own axes
+  glm::dvec2 Place{0}; ///< of the low pass, by the mean on the picture
   double S = 0;
 
+  void addOnPicture(const glm::dvec2 &Off, double Weight) {
+    S += Weight;
+    Place += 2 * Weight * Off;
+  }
   void add(const glm::dvec3 &Scale, const Body &B, const glm::dvec3 &Y,
            double Weight) {
     S += Weight;
@@ -294,7 +325,8 @@ struct RaySums {
 Picture<double> renderAlongRays(const Gaussians<double> &G,
                                 const Camera<double> &C, const Options &O,
                                 RayDepths By) {
-  assert(By != RayDepths::Ray || O.Dilation == 0);
+  assert(By != RayDepths::Ray || (O.Dilation == 0 && !O.LowPass));
+  assert(!O.LowPass || O.Dilation == 0);
   Picture<double> P;
   P.Width = C.Width;
   P.Height = C.Height;
@@ -317,7 +349,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
     const int Y0 = static_cast<int>(Tile) / Grid.Columns * Grid.Size;
     const Rect Area{X0, Y0, std::min(X0 + Grid.Size, C.Width),
                     std::min(Y0 + Grid.Size, C.Height)};
-    const Bundle Rays(C, O.Dilation, Area);
+    const Bundle Rays(C, O, Area);
     const auto Lists = All.see(Rays);
     std::size_t Ray = 0;
     for (int Y = Area.Y0; Y < Area.Y1; ++Y)
@@ -327,7 +359,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
             static_cast<std::size_t>(X);
         double &T = P.Transmittance[At];
         double Depth = 0; // of the Gaussian in front
-        for (const Seen &S : Lists[Ray]) {
+        for (const SeenBody &S : Lists[Ray]) {
           ++Walked;
           const double Alpha = std::min(mostAlpha<double>(), S.Alpha);
           if (near(Alpha, LeastAlpha) || S.IsAtOrigin)
@@ -374,7 +406,7 @@ Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
     const int Y0 = static_cast<int>(Tile) / Grid.Columns * Grid.Size;
     const Rect Area{X0, Y0, std::min(X0 + Grid.Size, C.Width),
                     std::min(Y0 + Grid.Size, C.Height)};
-    const Bundle Rays(C, O.Dilation, Area);
+    const Bundle Rays(C, O, Area);
     const auto Lists = All.see(Rays);
     std::size_t Ray = 0;
     std::vector<Blended> Pixel;
@@ -385,13 +417,13 @@ Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
             static_cast<std::size_t>(X);
         double T = 1;
         Pixel.clear();
-        for (const Seen &S : Lists[Ray]) {
+        for (const SeenBody &S : Lists[Ray]) {
           const double Alpha = std::min(mostAlpha<double>(), S.Alpha);
           if (Alpha < leastAlpha<double>(O.AlphaCutoff))
             continue;
           if (isFull(T * (1 - Alpha), O))
             break;
-          Pixel.push_back({S.Index, Alpha, S.Alpha, T});
+          Pixel.push_back({S.Index, Alpha, S.Alpha, T, S.IsOnPicture});
           T *= 1 - Alpha;
         }
         const double ByLast = glm::dot(Background, U.Render[At]) - U.Alpha[At];
@@ -409,9 +441,13 @@ Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
           const glm::dvec3 &Scales =
               G.Scales[static_cast<std::size_t>(B.Index)];
           const Body &Shape = All.body(B.Index);
-          Sums.add(Scales, Shape,
-                   nearestOverCovariance(Shape, Scales, *Rays.Rays[Ray]),
-                   B.Wanted * ByAlpha);
+          const double Weight = B.Wanted * ByAlpha;
+          if (B.IsOnPicture)
+            Sums.addOnPicture(Rays.Places[Ray] - Shape.Place, Weight);
+          else
+            Sums.add(Scales, Shape,
+                     nearestOverCovariance(Shape, Scales, *Rays.Rays[Ray]),
+                     Weight);
         }
       }
   });
@@ -425,6 +461,7 @@ Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
       To.Scales += Own.Scales;
       To.Turn += Own.Turn;
       To.S += Own.S;
+      To.Place += Own.Place;
     }
   Gradients Out;
   Out.Sums.resize(N);
@@ -437,10 +474,14 @@ Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
   const auto Bands = static_cast<std::size_t>(G.ShDegree) + 1;
   const std::size_t Coefficients = Bands * Bands;
   for (std::size_t I = 0; I < N; ++I) {
-    const RaySums &From = Sums[I];
-    const double Far = C.Optics.Model->IsParallel
-                           ? 1
-                           : All.body(static_cast<int32_t>(I)).Mean.z;
+    RaySums &From = Sums[I];
+    const glm::dvec3 &At = All.body(static_cast<int32_t>(I)).Mean;
+    const double Far = C.Optics.Model->IsParallel ? 1 : At.z;
+    const glm::dvec2 ByPlace = From.Place * C.Focal / Far;
+    From.Mean +=
+        glm::dvec3(ByPlace, C.Optics.Model->IsParallel
+                                ? 0
+                                : -glm::dot(ByPlace, glm::dvec2(At)) / Far);
     Out.Sums[I].Color = Out.Colors[I] = From.Color;
     Out.Sums[I].S = From.S;
     Out.Opacities[I] = From.S == 0 ? 0 : From.S / G.Opacities[I];

@@ -180,8 +180,9 @@ double lossOf(const Gaussians<double> &G, const Camera<double> &C,
 }
 
 /// Large Gaussians in front of the camera, one around it, and one opaque;
-/// colours of degree 1.
-Gaussians<double> nearScene() {
+/// colours of degree 1. As \p Surfels without their third scales, two of them
+/// smaller than a pixel.
+Gaussians<double> nearScene(bool Surfels) {
   Gaussians<double> G;
   G.ShDegree = 1;
   for (int I = 0; I < 6; ++I) {
@@ -194,13 +195,17 @@ Gaussians<double> nearScene() {
     G.Opacities.push_back(I == 1 ? 1 : 0.3 + 0.1 * I);
     for (int K = 0; K < 4; ++K)
       G.Sh.emplace_back(0.2 * std::sin(I + K), 0.1 * std::cos(2 * I + K), 0.1);
+    if (Surfels)
+      G.Scales.back() *= glm::dvec3(glm::dvec2(I % 3 == 2 ? 0.1 : 1), 0);
   }
   return G;
 }
 
 TEST(AlongRays, GradientsAreTheDerivative) {
   for (const LensModel *M : {&lenses::Pinhole, &lenses::Orthographic})
-    for (const Rules Rule : {Rules::Inria, Rules::Gsplat}) {
+    for (const auto &[Rule, Surfels] : {std::pair{Rules::Inria, false},
+                                        {Rules::Gsplat, false},
+                                        {Rules::Gsplat, true}}) {
       auto C = frontCamera(20, 16, 14);
       setLens(C, *M, {});
       C.Rotation = glm::dmat3(0.8, 0.36, -0.48, 0, 0.8, 0.6, 0.6, -0.48, 0.64);
@@ -209,6 +214,7 @@ TEST(AlongRays, GradientsAreTheDerivative) {
       Options O;
       O.Dilation = 0;
       O.Rule = Rule;
+      O.LowPass = Surfels;
       O.Near = 0.05;
       O.Background[1] = 0.4F;
       Upstream U;
@@ -217,7 +223,7 @@ TEST(AlongRays, GradientsAreTheDerivative) {
                               std::sin(0.37 * I + 1));
         U.Alpha.push_back(std::cos(0.9 * I + 2));
       }
-      Gaussians<double> G = nearScene();
+      Gaussians<double> G = nearScene(Surfels);
       for (auto &Mean : G.Means)
         Mean = glm::transpose(C.Rotation) * (Mean - C.Translation);
       // No alpha is near 0.99, below which INRIA's rules go on as if it were
@@ -251,6 +257,45 @@ TEST(AlongRays, GradientsAreTheDerivative) {
       }
       EXPECT_GT(Largest, 1);
     }
+}
+
+TEST(AlongRays, ASurfelIsItsDiscOrABlurOfAPixel) {
+  const auto C = camera(&lenses::Pinhole);
+  Options O;
+  O.Dilation = 0;
+  O.LowPass = true;
+  // Turned about the picture's y axis, up to an edge that no ray meets.
+  for (const double Turn : {0.0, 0.7, 1.5, M_PI / 2}) {
+    Gaussians<double> G;
+    const glm::dvec3 Mean(0.1, 0.05, 2);
+    addRound(G, Mean, 0, 0.8, glm::dvec3(1));
+    G.Scales[0] = {0.1, 0.05, 0};
+    G.Quats[0] = {std::cos(Turn / 2), 0, std::sin(Turn / 2), 0};
+    const glm::dvec3 Along(std::cos(Turn), 0, -std::sin(Turn));
+    const glm::dvec3 Normal(std::sin(Turn), 0, std::cos(Turn));
+    const auto P = renderAlongRays(G, C, O);
+    unsigned Met = 0, Blurred = 0;
+    for (int Y = 0; Y < C.Height; ++Y)
+      for (int X = 0; X < C.Width; ++X) {
+        const glm::dvec2 At(X + 0.5, Y + 0.5);
+        const glm::dvec3 Ray((At - C.Principal) / C.Focal, 1);
+        const glm::dvec3 Point =
+            glm::dot(Normal, Mean) / glm::dot(Normal, Ray) * Ray;
+        const double U = glm::dot(Along, Point - Mean) / 0.1,
+                     V = (Point - Mean).y / 0.05;
+        const glm::dvec2 Off =
+            At - (C.Focal * glm::dvec2(Mean) / Mean.z + C.Principal);
+        const double OnDisc = std::exp(-0.5 * (U * U + V * V)),
+                     OnPicture = std::exp(-glm::dot(Off, Off));
+        const double Alpha = 0.8 * std::max(OnDisc, OnPicture);
+        const auto I = static_cast<std::size_t>(Y * C.Width + X);
+        EXPECT_NEAR(P.Render[I].x, Alpha < 1.0 / 255 ? 0 : Alpha, 1e-12)
+            << Turn << ' ' << X << ' ' << Y;
+        Met += Alpha >= 1.0 / 255 && OnDisc > OnPicture;
+        Blurred += Alpha >= 1.0 / 255 && OnDisc < OnPicture;
+      }
+    EXPECT_GT(Turn < 1 ? Met : Blurred, 5U);
+  }
 }
 
 TEST(AlongRays, GradientsOfADiscAreThoseOfAThinOne) {

@@ -121,11 +121,15 @@ struct Options {
   double PointSpread = 0.5;
   bool Antialiased = false;
   double Dilation = 0.3; ///< added to both variances, px^2
-  double Cutoff = 1e-4;  ///< transmittance at which a pixel ends
-  int AlphaCutoff = 1;   ///< smallest alpha that is blended, in 1/255
-  int DepthBits = 32;    ///< leading bits of a depth's fp32 that order: 1 to 32
-  double Near = 0;       ///< least depth that is drawn; 0: the rules' own
-  int ShLimit = 3;       ///< harmonics of higher bands are left out
+  /// Along rays of pinholes and in parallel: a Gaussian's density is at least
+  /// exp(-d^2) d px from its mean on the picture, the low-pass filter of 2D
+  /// Gaussians (Huang et al. 2024, section 4.2).
+  bool LowPass = false;
+  double Cutoff = 1e-4; ///< transmittance at which a pixel ends
+  int AlphaCutoff = 1;  ///< smallest alpha that is blended, in 1/255
+  int DepthBits = 32;   ///< leading bits of a depth's fp32 that order: 1 to 32
+  double Near = 0;      ///< least depth that is drawn; 0: the rules' own
+  int ShLimit = 3;      ///< harmonics of higher bands are left out
   std::array<double, 3> Background{};
   int TileSize = 16;    ///< pixels; of the tile lists
   unsigned Threads = 0; ///< 0: one for each processor; changes no result

@@ -7,6 +7,7 @@
 #include "mesh/Mesh.h"
 #include "reference/AlongRays.h"
 #include "reference/PixelOrder.h"
+#include "scene/Activation.h"
 #include "scene/SceneFile.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -254,9 +255,11 @@ Expected<Success> run(Arguments &A) {
                  "--mesh is for --precision f64 and --order depth or ray, "
                  "expected these",
                  ExitCode::Usage};
-  const auto File = splat::readScene(A.Scene, A.Read);
+  auto File = splat::readScene(A.Scene, A.Read);
   if (!File)
     return File.error();
+  if (A.Options.LowPass)
+    splat::flatten(File->Gaussians);
   A.Options.Antialiased = File->DrawnAs.Antialiased;
   A.Options.Dilation = File->DrawnAs.Dilation.value_or(A.Options.Dilation);
   if (A.AlongRays && A.Order == "ray" &&
@@ -274,6 +277,14 @@ Expected<Success> run(Arguments &A) {
   const auto View = splat::readCamera(A.Cameras, A.View);
   if (!View)
     return View.error();
+  if (A.Options.LowPass &&
+      (!A.AlongRays || A.Options.Dilation != 0 || A.Order != "depth" ||
+       View->Optics.Shutter ||
+       !(View->Optics.isPinhole() || View->Optics.Model->IsParallel)))
+    return Error{A.Cameras,
+                 "--surfels is for --along-rays --dilation 0 --order depth, "
+                 "and pinholes or parallel rays of one moment, expected these",
+                 ExitCode::Usage};
   if (A.Order == "ray" && !A.AlongRays &&
       (A.Precision != "f64" || View->Optics.Shutter ||
        !View->Optics.isPinhole()))
@@ -333,6 +344,9 @@ int main(int Count, char **Values) {
                "With f64: evaluate each Gaussian at its maximum density along "
                "the pixel's ray, from the camera's position at the pixel's "
                "exposure, in place of a projected footprint");
+  App.add_flag("--surfels", A.Options.LowPass,
+               "With --along-rays: take its smallest scale from each Gaussian, "
+               "with the low-pass filter of 2D Gaussians");
   App.add_option("--upstream", A.Upstream,
                  "With --along-rays: gradients of a loss, as for splat "
                  "gradients");
