@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""How near `splat render --renderer ray` or `trace` comes to the fp64 reference: tables of docs/tables.
+"""How near `splat render --renderer ray`, `surfel` or `trace` comes to the fp64 reference: tables of docs/tables.
 
-usage: bench/rays.py [--renderer ray|trace] [--cycles] [--width PIXELS] [--only WORD] [-o FOLDER]
+usage: bench/rays.py [--renderer ray|surfel|trace] [--cycles] [--width PIXELS] [--only WORD] [-o FOLDER]
 
 Draws all views beside the repository (scenes.py) on all paths that the renderer has, and gives their PSNR beside
 `splat-reference --along-rays --dilation 0`, in the order along rays for traced ones: over all pixels, outside of doubtful
@@ -18,8 +18,9 @@ import command_line
 import scenes
 from accuracy import Bench, db, decibels, reached
 
-# Paths of a renderer, and the reference's order.
-RENDERERS = {"ray": (("raster", "simt"), "depth"), "trace": (("simt",), "ray")}
+# Paths of a renderer, and what the reference takes.
+RENDERERS = {"ray": (("raster", "simt"), ()), "surfel": (("raster", "simt"), ("--surfels",)),
+             "trace": (("simt",), ("--order", "ray"))}
 NAMES = {"raster": "rasterizer", "simt": "cores"}
 SURE_DB = 100
 WINDOWS = ("4", "8", "16")
@@ -33,12 +34,12 @@ def work_of(rays):
 
 
 def row(bench, scene, view, renderer):
-    paths, order = RENDERERS[renderer]
+    paths, reference = RENDERERS[renderer]
     name = f"{renderer}-{scene.name}-{view}"
     source = ("{scene}", "--cameras", "{cameras}", "--view", view)
     inputs = {"scene": scene.path, "cameras": scene.cameras}
-    _, exact = bench.run(f"{name}-f64", inputs, "splat-reference", *source, "--along-rays", "--order", order,
-                         "--dilation", "0", "-o", "{out}.npz", keep=(".npz",))
+    _, exact = bench.run(f"{name}-f64", inputs, "splat-reference", *source, "--along-rays", *reference, "--dilation", "0",
+                         "-o", "{out}.npz", keep=(".npz",))
 
     def compared(what, *options):
         report, picture = bench.run(f"{name}-{what}", inputs, "splat", "render", *source, *options, "-o", "{out}.npz",

@@ -155,6 +155,7 @@ reference::Options toReference(const RenderOptions &O) {
                                             : reference::Spread::Unscented;
   R.Antialiased = O.Antialiased;
   R.Dilation = double{O.Dilation};
+  R.LowPass = O.Kind == RendererKind::Surfel;
   R.Cutoff = double{O.Cutoff};
   R.AlphaCutoff = static_cast<int>(O.AlphaCutoff);
   R.DepthBits = static_cast<int>(O.DepthBits);

@@ -43,14 +43,16 @@ struct ConvertArguments {
 void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
                const Drawing &D) {
   if (!W.KeepsDrawing)
-    printDiagnostic("splat", "warning", Path,
-                    fmt::format("the format does not record the rendering "
-                                "mode, expected {}{}{} when rendering it",
-                                D.AlongRays ? "--renderer ray" : "",
-                                D.Antialiased ? "--antialiased" : "",
-                                D.Dilation
-                                    ? fmt::format(" --dilation {}", *D.Dilation)
-                                    : ""));
+    printDiagnostic(
+        "splat", "warning", Path,
+        fmt::format("the format does not record the rendering "
+                    "mode, expected {}{}{} when rendering it",
+                    D.Renderer == RendererKind::Splat
+                        ? ""
+                        : fmt::format("--renderer {}", name(D.Renderer)),
+                    D.Antialiased ? "--antialiased" : "",
+                    D.Dilation ? fmt::format(" --dilation {}", *D.Dilation)
+                               : ""));
   if (needsDoubles(S)) {
     if (W.Lost.Position > 0)
       printDiagnostic("splat", "warning", Path,
@@ -121,7 +123,7 @@ Expected<Success> joinOthers(const SceneArguments &First,
       return Read.error();
     if (!Read->DrawnAs.drawsAs(To.DrawnAs))
       return Error{Path, "has another rendering mode than the preceding scenes "
-                         "(antialiased, dilation, along rays), expected "
+                         "(antialiased, dilation, renderer), expected "
                          "--antialiased or --no-antialiased, and --dilation, "
                          "for all"};
     To.Dropped += Read->Dropped;

@@ -122,7 +122,7 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
-  drawByFile(A.Options, File->DrawnAs);
+  drawByFile(A.Options, File->DrawnAs, File->Gaussians);
   if (auto Checked = checkRenderer(A.Options, A.Scene.Options.Drawn); !Checked)
     return Checked;
   const auto C = readCapture(A.Capture, A.Read);

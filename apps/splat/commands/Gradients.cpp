@@ -106,11 +106,12 @@ Npz arraysOf(const GradientResult &R, const Scene &S, RendererKind Kind) {
   Out["f32_h_dc"] = NpyArray::of({N, 3}, Colors);
   static constexpr const char *OfFootprints[] = {"s",    "sdx",  "sdy",
                                                  "sdxx", "sdxy", "sdyy"};
-  static constexpr const char *OfRays[] = {"s",   "su",  "sv",  "suu", "suv",
-                                           "svv", "suq", "svq", "sqq"};
-  const auto Moments = Kind == RendererKind::Ray
-                           ? std::span<const char *const>(OfRays)
-                           : std::span<const char *const>(OfFootprints);
+  static constexpr const char *OfRays[] = {
+      "s", "su", "sv", "suu", "suv", "svv", "suq", "svq", "sqq", "slx", "sly"};
+  const auto Moments = Kind == RendererKind::Splat
+                           ? std::span<const char *const>(OfFootprints)
+                           : std::span<const char *const>(OfRays).first(
+                                 recordSums(Kind) - SUM_S);
   for (std::size_t M = 0; M < Moments.size(); ++M)
     Out[fmt::format("f32_h_{}", Moments[M])] =
         NpyArray::of({N}, Plane(SUM_S + M));
@@ -148,7 +149,7 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
-  drawByFile(A.Options, File->DrawnAs);
+  drawByFile(A.Options, File->DrawnAs, File->Gaussians);
   for (const auto &Checked : {checkGradientOptions(A.Options, A.Backward),
                               checkRenderer(A.Options, A.Scene.Options.Drawn)})
     if (!Checked)

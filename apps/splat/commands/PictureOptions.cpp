@@ -4,6 +4,7 @@
 #include "commands/Usage.h"
 #include "mesh/Mesh.h"
 #include "render/PixelLists.h"
+#include "scene/Activation.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Printable.h"
@@ -333,29 +334,37 @@ void addRendererOption(CLI::App &App, RendererKind &Kind,
   const HelpGroup Group(App, "Picture");
   addChoice(App, "--renderer", Kind, Kinds,
             "Evaluation of a Gaussian: as a footprint on the picture, or where "
-            "it is densest on each pixel's ray, by lists of tiles or traced "
-            "(docs/cameras.md)");
+            "it is densest on each pixel's ray, by lists of tiles, as a disc, "
+            "or traced (docs/cameras.md)");
 }
 
 void addRendererOption(CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
                        const std::vector<RendererKind> &Kinds) {
   addRendererOption(App, Kind, Kinds);
   App.get_option("--renderer")->each([&Drawn](const std::string &Chosen) {
-    Drawn.AlongRays = Chosen == name(RendererKind::Ray);
+    for (const RendererKind K : TrainedRenderers)
+      if (Chosen == name(K))
+        Drawn.Renderer = K;
+    if (Chosen == name(RendererKind::Trace))
+      Drawn.Renderer = RendererKind::Splat;
   });
 }
 
-void drawByFile(RenderOptions &O, const Drawing &D) {
-  if (D.AlongRays)
-    O.Kind = RendererKind::Ray;
+void drawByFile(RenderOptions &O, const Drawing &D, Scene &S) {
+  if (D.Renderer != RendererKind::Splat)
+    O.Kind = D.Renderer;
+  if (O.Kind == RendererKind::Surfel)
+    flatten(S);
   drawAs(O, D);
 }
 
 void warnOfRays(const Drawing &D, const std::string &Path) {
-  if (D.AlongRays)
+  if (D.Renderer != RendererKind::Splat)
     printDiagnostic("splat", "warning", Path,
-                    "was trained along rays, and is drawn as footprints: splat "
-                    "render draws it along rays");
+                    fmt::format("was trained with --renderer {0}, and is drawn "
+                                "as footprints: splat render draws it with "
+                                "--renderer {0}",
+                                name(D.Renderer)));
 }
 
 Expected<Success> excludedByRays(std::string_view Option, RendererKind Kind) {
@@ -406,7 +415,7 @@ Expected<Success> checkRays(const RenderOptions &O,
 
 Expected<Success> checkGradientOptions(const RenderOptions &O,
                                        const BackwardOptions &B) {
-  if (O.Kind == RendererKind::Ray && B.Pixels != SimtSums::Ordered)
+  if (O.Kind != RendererKind::Splat && B.Pixels != SimtSums::Ordered)
     return excludedByRays("--simt-sums", O.Kind);
   for (const auto &Checked : {checkPictureOptions(O),
                               checkTilesBack(O.Blending, O.Tile, O.SimtGroup)})

@@ -101,8 +101,8 @@ void addBackwardOptions(CLI::App &App, BackwardOptions &B);
 Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
 
 /// Renderers that training has, too.
-inline const std::vector<RendererKind> TrainedRenderers{RendererKind::Splat,
-                                                        RendererKind::Ray};
+inline const std::vector<RendererKind> TrainedRenderers{
+    RendererKind::Splat, RendererKind::Ray, RendererKind::Surfel};
 
 /// Declares --renderer with \p Kinds.
 void addRendererOption(
@@ -114,10 +114,12 @@ void addRendererOption(
     CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
     const std::vector<RendererKind> &Kinds = TrainedRenderers);
 
-/// drawAs(), with the renderer that \p D names.
-void drawByFile(RenderOptions &O, const Drawing &D);
+/// drawAs(), with the renderer that \p D names. A scene that is drawn as
+/// surfels loses each Gaussian's smallest scale.
+void drawByFile(RenderOptions &O, const Drawing &D, Scene &S);
 
-/// Says that a scene \p Path trained along rays is drawn as footprints.
+/// Says that a scene \p Path trained for another renderer is drawn as
+/// footprints.
 void warnOfRays(const Drawing &D, const std::string &Path);
 
 /// The usage error that \p Option is of footprints, or of another renderer than

@@ -129,7 +129,8 @@ Expected<Success> checkRenderer(const RenderArguments &A) {
   const bool IsTrace = Kind == RendererKind::Trace;
   for (const auto &[Is, Option] :
        {std::pair{IsRays && !A.Numerics.empty(), "--numerics"},
-        {IsRays && A.Layers.needLists(), "--contributors or --depth-as median"},
+        {IsTrace && A.Layers.needLists(),
+         "--contributors or --depth-as median"},
         {IsTrace && A.Layers.needDepths(), "--depth"},
         {IsTrace && A.Layers.needNormals(), "--normals"},
         {IsTrace && !A.Pairs.empty(), "--pairs"}})
@@ -448,7 +449,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return AddedMesh.error();
   A.Options.Light = A.Mesh.Light;
   A.Options.KeepVisible = !A.Visible.empty();
-  drawByFile(A.Options, File->DrawnAs);
+  drawByFile(A.Options, File->DrawnAs, File->Gaussians);
   if (auto Checked = checkRenderer(A); !Checked)
     return Checked;
   const Scene *S = &File->Gaussians;
@@ -618,9 +619,9 @@ Runner addRender(CLI::App &App) {
       "Write a page with the breakdown of the frame time (implies --time)");
   addDrawOptions(App, *A);
   Group.next("Picture");
-  addRendererOption(
-      App, A->Options.Kind, A->Scene.Options.Drawn,
-      {RendererKind::Splat, RendererKind::Ray, RendererKind::Trace});
+  addRendererOption(App, A->Options.Kind, A->Scene.Options.Drawn,
+                    {RendererKind::Splat, RendererKind::Ray,
+                     RendererKind::Surfel, RendererKind::Trace});
   Group.next("Accuracy and speed");
   App.add_flag("--overlap", A->Overlap,
                "With several pictures, overlap the preparation of one with the "

@@ -79,10 +79,9 @@ Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
   const auto Report = trainReport(A.Trained.Request, Out, Energy);
   if (!Report)
     return Report.error();
-  if (auto Written = writePly(
-          A.Output, Out.Result,
-          {A.Trained.Request.Run.Antialiased, std::nullopt, "--antialiased",
-           A.Trained.Request.Run.Kind == RendererKind::Ray});
+  if (auto Written = writePly(A.Output, Out.Result,
+                              {A.Trained.Request.Run.Antialiased, std::nullopt,
+                               "--antialiased", A.Trained.Request.Run.Kind});
       !Written)
     return Written;
   if (auto Written = writeTrainPictures(A.Pictures, A.Output, Out, *Report);
@@ -110,8 +109,9 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
   if (R.Run.Through == Spread::Unscented)
     printOut("projection   unscented: eval and render need --projection "
              "unscented, too\n");
-  if (R.Run.Kind == RendererKind::Ray)
-    printOut("renderer     ray, which the scene's file says\n");
+  if (R.Run.Kind != RendererKind::Splat)
+    printOut("renderer     {}, which the scene's file says\n",
+             name(R.Run.Kind));
   if (Out.Near)
     printOut("near plane   at depth {:g}: render from other distances needs "
              "--near {:g}, too\n",

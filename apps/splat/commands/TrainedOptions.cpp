@@ -117,7 +117,7 @@ Expected<Success> checkTrained(const TrainRequest &R) {
   if (R.Run.Pictures == LensOf::Photograph && looksAtDepths(R.Run.Settings))
     return usage("--depth-weight: the depth loss needs undistorted pictures, "
                  "expected no --distorted");
-  if (R.Run.Kind == RendererKind::Ray)
+  if (R.Run.Kind != RendererKind::Splat)
     for (const auto &[Is, Option] :
          {std::pair{R.Run.Through != Spread::Jacobian, "--projection"},
           {R.Run.Antialiased, "--antialiased"},
@@ -127,7 +127,7 @@ Expected<Success> checkTrained(const TrainRequest &R) {
           {arePosesOn(R.Run.Settings), "--pose-rate"},
           {R.Backward.Pixels != SimtSums::Ordered, "--simt-sums"}})
       if (Is)
-        return excludedByRays(Option);
+        return excludedByRays(Option, R.Run.Kind);
   if (auto Checked = checkNear(R.Run.Near); !Checked)
     return Checked;
   for (const float V : R.Run.Background)

@@ -2,13 +2,22 @@
 
 #include "effects/Registry.h"
 
+#include <fmt/format.h>
+
 namespace vorion::splat {
 
 namespace {
 
 Finding detect(const EffectInputs &In) {
-  const bool Is = In.Options.Kind == RendererKind::Ray;
-  return {Is, Is ? "--renderer ray" : "--renderer splat", Is};
+  const RendererKind Kind = In.Options.Kind;
+  const bool Is = hasRayRecords(Kind);
+  return {Is, fmt::format("--renderer {}", name(Kind)), Is};
+}
+
+Finding detectSurfels(const EffectInputs &In) {
+  const RendererKind Kind = In.Options.Kind;
+  const bool Is = Kind == RendererKind::Surfel;
+  return {Is, fmt::format("--renderer {}", name(Kind)), Is};
 }
 
 } // namespace
@@ -19,6 +28,15 @@ const Effect effects::Rays{
     .What = "records of rays, and a quotient for each pixel and Gaussian",
     .Macro = "USE_RAYS",
     .Detect = detect,
+    .Neutral = false,
+    .ByCamera = true};
+
+const Effect effects::Surfels{
+    .Name = "surfels",
+    .Kind = EffectKind::Scene,
+    .What = "a low pass on the picture for Gaussians that rays meet",
+    .Macro = "USE_SURFELS",
+    .Detect = detectSurfels,
     .Neutral = false,
     .ByCamera = true};
 

@@ -237,8 +237,9 @@ enum {
   DATAPATH_EXP = 0,            ///< first bit of the exponential unit
   DATAPATH_STOP_AT_EQUAL = 16, ///< stop rule
   DATAPATH_SKIP_SATURATED = 32,
-  DATAPATH_BLEND = 6,       ///< first bit of the blend arithmetic
-  DATAPATH_ALPHA_CUTOFF = 8 ///< first bit of log2(255 times the cut-off)
+  DATAPATH_BLEND = 6,        ///< first bit of the blend arithmetic
+  DATAPATH_ALPHA_CUTOFF = 8, ///< first bit of log2(255 times the cut-off)
+  DATAPATH_LOW_PASS = 2048   ///< of surfels
 };
 
 /// Bytes of a vx_tail, and of a vx_tail_range behind it where pixels have
@@ -293,7 +294,9 @@ enum {
   /// Of rays the same places have the moments of U and V; then Uq, Vq, qq.
   SUM_UQ = 9,
   SUM_QQ = 11,
-  RAY_SUM_WORDS = 12
+  RAY_SUM_WORDS = 12,
+  SUM_LOW_PASS = 12, ///< of surfels, on the picture: x, y
+  SURFEL_SUM_WORDS = 14
 };
 
 /// Planes of the gradients' buffer, as GEOMETRY_PLANES.

@@ -70,6 +70,13 @@ static bool pixel_backward(RECORD_SPACE const splat_record *g,
   sum[SUM_COLOR + 1] += weight * u.y;
   sum[SUM_COLOR + 2] += weight * u.z;
   sum[SUM_S] += v;
+#if USE_SURFELS
+  if (at.on_picture) {
+    sum[SUM_LOW_PASS] += v * at.dx;
+    sum[SUM_LOW_PASS + 1] += v * at.dy;
+    return true;
+  }
+#endif
   sum[SUM_SX] += vx;
   sum[SUM_SX + 1] += vy;
   sum[SUM_SXX] += vx * x;

@@ -269,7 +269,11 @@ static void project_backward_one(__constant const splat_view *view,
 #if USE_RAYS
   const ray_sums sum = {SUM(SUM_SX),      SUM(SUM_SX + 1),  SUM(SUM_SXX),
                         SUM(SUM_SXX + 1), SUM(SUM_SXX + 2), SUM(SUM_UQ),
-                        SUM(SUM_UQ + 1),  SUM(SUM_QQ)};
+                        SUM(SUM_UQ + 1),  SUM(SUM_QQ),
+#if USE_SURFELS
+                        SUM(SUM_LOW_PASS), SUM(SUM_LOW_PASS + 1)
+#endif
+  };
   shape_gradients to = rays_backward(view, &g, record.near, &sum);
   to.opacity = by_opacity;
   // A step of the mean that is a pixel on the picture.

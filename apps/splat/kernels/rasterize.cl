@@ -36,7 +36,8 @@ _Static_assert(DATAPATH_EXP == VR_OPTIONS_EXP_SHIFT &&
                    DATAPATH_STOP_AT_EQUAL == VR_OPTIONS_STOP_AT_EQUAL_MASK &&
                    DATAPATH_SKIP_SATURATED == VR_OPTIONS_SKIP_SATURATED_MASK &&
                    DATAPATH_BLEND == VR_OPTIONS_BLEND_SHIFT &&
-                   DATAPATH_ALPHA_CUTOFF == VR_OPTIONS_ALPHA_CUTOFF_SHIFT,
+                   DATAPATH_ALPHA_CUTOFF == VR_OPTIONS_ALPHA_CUTOFF_SHIFT &&
+                   DATAPATH_LOW_PASS == VR_OPTIONS_LOW_PASS_MASK,
                "kernels/layout.h and docs/isa.md disagree");
 _Static_assert(sizeof(vx_tail) == TAIL_BYTES &&
                    sizeof(vx_tail_range) == TAIL_RANGE_BYTES,

@@ -19,6 +19,10 @@ typedef struct {
   float u, v, l;
   float far; // what the square of the distance is divided by
   float q;
+#if USE_SURFELS
+  float dx, dy;    // from the mean to the pixel
+  bool on_picture; // the low pass has less than the disc
+#endif
 } ray_meeting;
 
 // At pixel (x, y) of the box.
@@ -32,11 +36,23 @@ static ray_meeting meet(RECORD_SPACE const splat_record *g, float x, float y) {
   m.l = (1.0f + g->slope[0] * dx) + g->slope[1] * dy;
   m.far = m.l * m.l + g->near * beside;
   m.q = beside / m.far;
+#if USE_SURFELS
+  const float low_pass = 2.0f * (dx * dx + dy * dy);
+  m.dx = dx;
+  m.dy = dy;
+  m.on_picture = !((m.l > 0.0f) & (m.q <= low_pass));
+  m.q = m.on_picture ? low_pass : m.q;
+#endif
   return m;
 }
 
-// The exponent there; no number where the ray has the Gaussian behind it.
+// The exponent there; no number where the ray has the Gaussian behind it, but
+// of surfels, which the low pass always sees.
 static float power_of(ray_meeting m) {
   const float power = -0.5f * m.q;
+#if USE_SURFELS
+  return power;
+#else
   return m.l > 0.0f ? power : NAN;
+#endif
 }

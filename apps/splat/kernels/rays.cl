@@ -40,6 +40,18 @@ typedef struct {
   float middle, half_width;
 } silhouette;
 
+#if USE_SURFELS
+// Squares of it times pixels are within fp32.
+#define MOST_FACTOR 1e14f
+
+// With the pixels that the low pass reaches around the centre.
+static silhouette with_low_pass(silhouette s, float reach) {
+  const float low = fmin(s.middle - s.half_width, -reach);
+  const float high = fmax(s.middle + s.half_width, reach);
+  return (silhouette){0.5f * (low + high), 0.5f * (high - low)};
+}
+#endif
+
 // Pixels along an axis, both ends included; none if the first is the larger.
 typedef struct {
   int first, last;
@@ -92,8 +104,11 @@ static uint meet_rays(VIEW_SPACE const splat_view *view,
   const float square = dot(ahead, ahead);
   const float along_x = sqrt(dot(across_x, across_x));
   // The rays lie in the disc, or there is only a line to meet.
-  if (square == 0.0f || along_x == 0.0f)
+  const bool is_met = square != 0.0f && along_x != 0.0f;
+#if !USE_SURFELS
+  if (!is_met)
     return CULLED + CULL_DEGENERATE;
+#endif
   const float fx = view->focal[0], fy = view->focal[1];
   const float per_pixel = depth / (sqrt(square) * largest);
   g->factor[0] = per_pixel * along_x / fx;
@@ -108,6 +123,14 @@ static uint meet_rays(VIEW_SPACE const splat_view *view,
   // Of a Gaussian beyond fp32's range the quotient is 0, as it nearly is.
   const float reciprocal = s.x * s.y * s.z * largest / sqrt(square);
   g->near = fmin(reciprocal * reciprocal, FLT_MAX);
+#endif
+#if USE_SURFELS
+  // From the edge, too, the low pass sees it.
+  for (uint k = 0; k < 3; ++k)
+    g->factor[k] = is_met ? clamp(g->factor[k], -MOST_FACTOR, MOST_FACTOR)
+                          : MOST_FACTOR;
+  for (uint k = 0; k < 2; ++k)
+    g->slope[k] = is_met ? g->slope[k] : 0.0f;
 #endif
   g->opacity = activated.w;
 
@@ -139,6 +162,12 @@ static uint meet_rays(VIEW_SPACE const splat_view *view,
 #endif
   sx.half_width += rounding * (sx.half_width + fabs(sx.middle)) + 1e-3f;
   sy.half_width += rounding * (sy.half_width + fabs(sy.middle)) + 1e-3f;
+#if USE_SURFELS
+  // alpha is at least the cut-off up to q = 2 (dx^2 + dy^2) = 2 log(ratio).
+  const float low_pass = sqrt(log(fmax(1.0f, ratio))) + 1e-3f;
+  sx = with_low_pass(sx, low_pass);
+  sy = with_low_pass(sy, low_pass);
+#endif
 #if !LENS_IS_PARALLEL
   if (is_anywhere)
     sx = sy = (silhouette){0.0f, INFINITY};

@@ -8,10 +8,12 @@
 
 #include "backward.cl"
 #include "lens_model.cl"
+#include "record.h"
 
 // The moments of one Gaussian.
 typedef struct {
   float u, v, uu, uv, vv, uq, vq, qq;
+  float x, y; // of surfels: on the picture, px
 } ray_sums;
 
 // The component of each axis is that of the next but one, and so on.
@@ -41,12 +43,16 @@ static shape_gradients rays_backward(VIEW_SPACE const splat_view *view,
   const float3 left = next_axis(squares * beside) * next_axis(next_axis(along));
   const float3 right =
       next_axis(next_axis(squares * beside)) * next_axis(along);
-  const float3 by_u = (left - right) / (across * sqrt(square) * largest);
-  const float3 by_v = beside / (across * largest);
+  float3 by_u = (left - right) / (across * sqrt(square) * largest);
+  float3 by_v = beside / (across * largest);
 #if LENS_IS_PARALLEL
-  const float3 by_q = (float3)(0.0f, 0.0f, 0.0f);
+  float3 by_q = (float3)(0.0f, 0.0f, 0.0f);
 #else
-  const float3 by_q = -(others * ahead) / square;
+  float3 by_q = -(others * ahead) / square;
+#endif
+#if USE_SURFELS
+  if (square == 0.0f || across == 0.0f) // the low pass alone
+    by_u = by_v = by_q = (float3)(0.0f, 0.0f, 0.0f);
 #endif
 
   const float q = sum->uu + sum->vv + near * sum->qq;
@@ -66,5 +72,15 @@ static shape_gradients rays_backward(VIEW_SPACE const splat_view *view,
                      (scale.z - scale.x) * (scale.z + scale.x) * with_next.z,
                      (scale.x - scale.y) * (scale.x + scale.y) * with_next.x);
   to.place = (float3)(dot(e.x, y), dot(e.y, y), dot(e.z, y));
+#if USE_SURFELS
+  // The low pass is exp(-|d|^2) of the pixel's distance d from the mean.
+  const float by_x = 2.0f * sum->x * view->focal[0];
+  const float by_y = 2.0f * sum->y * view->focal[1];
+#if LENS_IS_PARALLEL
+  to.place += (float3)(by_x, by_y, 0.0f);
+#else
+  to.place += (float3)(by_x, by_y, -(by_x * p.x + by_y * p.y) / p.z) / p.z;
+#endif
+#endif
   return to;
 }

@@ -29,11 +29,6 @@ enum class Dealing { Lists, LastFrame };
 /// at its mean, or by seven of its points (3DGUT's unscented transform).
 enum class Spread { Jacobian, Unscented };
 
-/// How a Gaussian is evaluated: as a footprint on the picture; or where it is
-/// densest on each pixel's ray, in the order of the means' depths or, traced
-/// through a tree, in the order along the ray.
-enum class RendererKind { Splat, Ray, Trace };
-
 /// By which depth a pixel blends Gaussians: that of their centres, or that
 /// along the pixel's own ray.
 enum class PixelOrder { Depth, Ray };
@@ -51,10 +46,6 @@ constexpr std::string_view name(DepthFormat F) {
 }
 constexpr std::string_view name(PixelOrder O) {
   return O == PixelOrder::Depth ? "depth" : "ray";
-}
-constexpr std::string_view name(RendererKind K) {
-  constexpr std::array<std::string_view, 3> Names{"splat", "ray", "trace"};
-  return Names[static_cast<std::size_t>(K)];
 }
 constexpr std::string_view name(Dealing D) {
   return D == Dealing::Lists ? "lists" : "last-frame";

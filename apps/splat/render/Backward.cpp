@@ -30,11 +30,13 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
       .USE_MESH = O.Surface ? On : EffectSwitch::absent()}};
   const std::optional<cl_uint> AbsoluteSums =
       B.AbsoluteSums ? std::optional(2U) : std::nullopt;
-  const EffectSwitch Rays =
-      O.Kind == RendererKind::Ray ? On : EffectSwitch::absent();
+  const EffectSwitch Rays = hasRayRecords(O.Kind) ? On : EffectSwitch::absent();
+  const EffectSwitch Surfels =
+      O.Kind == RendererKind::Surfel ? On : EffectSwitch::absent();
   const auto AddBlending = [&](auto Program) {
     choose(Program, O);
     Program.USE_RAYS = Rays;
+    Program.USE_SURFELS = Surfels;
     if (B.Windows)
       Program.USE_WINDOWS = On;
     if constexpr (requires { Program.ABSOLUTE_SUMS; })
@@ -48,13 +50,14 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   else
     AddBlending(kernels::blend_backward_atomics::Program{
         .WARP_SUMS = B.Pixels == SimtSums::Warp});
-  Programs.push_back(kernels::reduce::Program{.ABSOLUTE_SUMS = AbsoluteSums,
-                                              .USE_RAYS = Rays});
+  Programs.push_back(kernels::reduce::Program{
+      .ABSOLUTE_SUMS = AbsoluteSums, .USE_RAYS = Rays, .USE_SURFELS = Surfels});
   kernels::project_backward::Program Project{
       .SH_DEGREE = static_cast<cl_uint>(ShDegree),
       .STORED_PARAMETERS = B.Parameters == GradientsOf::Stored,
       .POSES = B.Poses,
-      .USE_RAYS = Rays};
+      .USE_RAYS = Rays,
+      .USE_SURFELS = Surfels};
   choose(Project, O);
   if (const Effect *Lens = effects::lensOf(*O.Optics))
     compile(Project, *Lens);

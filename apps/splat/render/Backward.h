@@ -38,6 +38,8 @@ constexpr std::string_view name(SimtSums S) {
 
 /// The sums that \c BackwardPipeline::sums() has at least.
 constexpr uint32_t recordSums(RendererKind Of) {
+  if (Of == RendererKind::Surfel)
+    return SURFEL_SUM_WORDS;
   return Of == RendererKind::Ray ? RAY_SUM_WORDS : SUM_WORDS;
 }
 

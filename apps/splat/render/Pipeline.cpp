@@ -583,7 +583,8 @@ splat_blend_options Pipeline::blendOptions() const {
       static_cast<unsigned>(std::countr_zero(Options.AlphaCutoff))
           << DATAPATH_ALPHA_CUTOFF |
       (Options.Convention == Rules::Gsplat ? DATAPATH_STOP_AT_EQUAL : 0U) |
-      (Options.SkipSaturated ? DATAPATH_SKIP_SATURATED : 0U);
+      (Options.SkipSaturated ? DATAPATH_SKIP_SATURATED : 0U) |
+      (Options.Kind == RendererKind::Surfel ? DATAPATH_LOW_PASS : 0U);
   O.tail_count = Tail.Count;
   O.tail_last[0] = Tail.LastOver;
   O.tail_last[1] = Tail.LastUnder;

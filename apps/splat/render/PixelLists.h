@@ -20,6 +20,8 @@ struct PixelLists {
   /// Records of each window, in the order of windows; a picture without windows
   /// is one.
   std::vector<splat_gaussian> Records;
+  /// In their place, where the picture has records of rays.
+  std::vector<splat_ray_gaussian> Rays;
   splat_windows Windows{31, 1, 0};
   std::vector<float> Depths;  ///< of each record; undefined if invisible
   std::vector<uint32_t> List; ///< lists of all tiles; indices of records in a
@@ -49,7 +51,8 @@ Contributors topContributors(const PixelLists &L, const RenderOptions &O,
                              unsigned Most);
 
 /// The depth of the Gaussian after which a pixel's transmittance is at most a
-/// half; otherwise that of the last Gaussian; 0 without Gaussians.
+/// half; otherwise that of the last Gaussian; 0 without Gaussians. Where rays
+/// of a pinhole meet a Gaussian, the depth of that point, else of the mean.
 std::vector<float> medianDepths(const PixelLists &L, const RenderOptions &O);
 
 } // namespace vorion::splat

@@ -56,4 +56,28 @@ TEST(PixelLists, TheMedianIsWhereHalfOfTheLightIsLeft) {
   EXPECT_EQ(medianOf({}), 0);
 }
 
+TEST(PixelLists, TheMedianOfASurfelIsWhereTheRayMeetsIt) {
+  // The pixel is 2 px right of the mean, where the plane is 1.5 times as near.
+  PixelLists L = pixelOf({0.9F, 0.9F});
+  RenderOptions O;
+  O.Kind = RendererKind::Surfel;
+  for (const splat_gaussian &G : L.Records) {
+    splat_ray_gaussian R{};
+    R.mean[0] = -2;
+    R.factor[0] = R.factor[2] = 0.1F;
+    R.slope[0] = 0.25F;
+    R.opacity = G.opacity;
+    L.Rays.push_back(R);
+  }
+  EXPECT_FLOAT_EQ(medianDepths(L, O).front(), 1 / 1.5F);
+  // From the edge the low pass alone has it, and the depth is the mean's.
+  for (splat_ray_gaussian &R : L.Rays)
+    R.factor[0] = 1e6F, R.mean[0] = 0.5F;
+  EXPECT_EQ(medianDepths(L, O).front(), 1);
+  // Its box ends before the pixel.
+  for (splat_ray_gaussian &R : L.Rays)
+    R.first = 1;
+  EXPECT_EQ(medianDepths(L, O).front(), 0);
+}
+
 } // namespace

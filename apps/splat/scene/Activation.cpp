@@ -39,8 +39,18 @@ void resolveInfinities(Scene &S) {
   for (float &Logit : S.OpacityLogits)
     if (std::isinf(Logit))
       Logit = Logit > 0 ? Opaque : Absent;
-  std::ranges::replace(S.LogScales, -Infinity,
-                       std::log(std::numeric_limits<float>::min()));
+  std::ranges::replace(S.LogScales, -Infinity, FlatLogScale);
+}
+
+void flatten(Scene &S) {
+  for (std::size_t I = 0; I < S.size(); ++I) {
+    float *Own = &S.LogScales[3 * I];
+    std::size_t Least = 2;
+    for (const std::size_t K : {1, 0})
+      if (Own[K] < Own[Least])
+        Least = K;
+    Own[Least] = FlatLogScale;
+  }
 }
 
 template Activated<float> activate<float>(const Scene &);

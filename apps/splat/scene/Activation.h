@@ -3,6 +3,8 @@
 
 #include "scene/Scene.h"
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace vorion::splat {
@@ -32,6 +34,12 @@ float opacityLogit(double Opacity);
 /// those of opacityLogit(), a log scale of -infinity (flat) by that of the
 /// smallest normal float.
 void resolveInfinities(Scene &S);
+
+/// The logarithm of a scale that is none: of the least normal float.
+inline const float FlatLogScale = std::log(std::numeric_limits<float>::min());
+
+/// Takes its smallest scale from each Gaussian, of equal ones the last.
+void flatten(Scene &S);
 
 extern template Activated<float> activate<float>(const Scene &);
 extern template Activated<double> activate<double>(const Scene &);

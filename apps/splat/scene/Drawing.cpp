@@ -3,8 +3,10 @@
 #include "io/Bytes.h"
 #include "vorion/support/Letters.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 
 namespace vorion::splat {
@@ -14,6 +16,8 @@ constexpr std::string_view ModeKey = "splatrendermode:";
 constexpr std::string_view FlagKey = "antialiased ";
 constexpr std::string_view DilationKey = "dilation:";
 constexpr std::string_view RendererKey = "splatrenderer:";
+constexpr RendererKind Recorded[] = {RendererKind::Splat, RendererKind::Ray,
+                                     RendererKind::Surfel};
 /// What Brush dilates by where it compensates, as Mip-Splatting does.
 constexpr double BrushDilation = 0.1;
 
@@ -44,10 +48,10 @@ std::optional<Error> take(const std::string &Where, std::string_view Comment,
     return "comment " + printable(trimmed(Comment));
   };
   if (const auto Mode = after(ModeKey, Lower)) {
+    if (*Mode != "default" && *Mode != "mip" && *Mode != "2dgs")
+      return unknown(Where, Source(), "SplatRenderMode: default, mip or 2dgs");
     if (*Mode == "2dgs")
-      return flatGaussians(Where, Source());
-    if (*Mode != "default" && *Mode != "mip")
-      return unknown(Where, Source(), "SplatRenderMode: default or mip");
+      D.Renderer = RendererKind::Surfel;
     D.Antialiased = *Mode == "mip";
     D.Source = Source();
   } else if (const auto Flag = after(FlagKey, Lower)) {
@@ -64,9 +68,11 @@ std::optional<Error> take(const std::string &Where, std::string_view Comment,
       return unknown(Where, Source(), ExpectedDilation);
     D.Dilation = Dilation;
   } else if (const auto Renderer = after(RendererKey, Lower)) {
-    if (*Renderer != "splat" && *Renderer != "ray")
-      return unknown(Where, Source(), "SplatRenderer: splat or ray");
-    D.AlongRays = *Renderer == "ray";
+    const auto *Found = std::ranges::find(
+        Recorded, *Renderer, [](RendererKind K) { return name(K); });
+    if (Found == std::end(Recorded))
+      return unknown(Where, Source(), "SplatRenderer: splat, ray or surfel");
+    D.Renderer = *Found;
   }
   return std::nullopt;
 }
@@ -94,17 +100,10 @@ Expected<Drawing> drawingOfComments(const std::string &Where,
 Expected<Drawing> drawingOfModel(const std::string &Where,
                                  std::string_view Model) {
   const std::string Source = fmt::format("model {}", printable(Model));
-  if (Model == "2dgs")
-    return flatGaussians(Where, Source);
-  if (Model != "default" && Model != "antialiased")
-    return unknown(Where, Source, "model default or antialiased");
-  return Drawing{Model == "antialiased", std::nullopt, Source};
-}
-
-Error flatGaussians(const std::string &Where, std::string_view Source) {
-  return {Where, fmt::format("{} selects 2D Gaussians (2DGS), which are not "
-                             "supported, expected 3D Gaussians",
-                             Source)};
+  if (Model != "default" && Model != "antialiased" && Model != "2dgs")
+    return unknown(Where, Source, "model default, antialiased or 2dgs");
+  return Drawing{Model == "antialiased", std::nullopt, Source,
+                 Model == "2dgs" ? RendererKind::Surfel : RendererKind::Splat};
 }
 
 Drawing withRequest(Drawing D, const DrawingRequest &R) {
@@ -120,14 +119,14 @@ Drawing withRequest(Drawing D, const DrawingRequest &R) {
   }
   if (R.Dilation)
     D.Dilation = R.Dilation;
-  D.AlongRays = R.AlongRays.value_or(D.AlongRays);
+  D.Renderer = R.Renderer.value_or(D.Renderer);
   return D;
 }
 
 std::string drawingComments(const Drawing &D) {
   std::string Lines;
-  if (D.AlongRays)
-    Lines += "comment SplatRenderer: ray\n";
+  if (D.Renderer != RendererKind::Splat)
+    Lines += fmt::format("comment SplatRenderer: {}\n", name(D.Renderer));
   if (D.Antialiased)
     Lines += "comment SplatRenderMode: mip\n";
   if (D.Dilation)

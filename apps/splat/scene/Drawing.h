@@ -4,12 +4,31 @@
 
 #include "vorion/support/Expected.h"
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace vorion::splat {
+
+/// How a Gaussian is evaluated: as a footprint on the picture; or where it is
+/// densest on each pixel's ray, in the order of the means' depths, of flat ones
+/// with the low pass of 2D Gaussians; or, traced through a tree, in the order
+/// along the ray.
+enum class RendererKind { Splat, Ray, Surfel, Trace };
+
+constexpr std::string_view name(RendererKind K) {
+  constexpr std::array<std::string_view, 4> Names{"splat", "ray", "surfel",
+                                                  "trace"};
+  return Names[static_cast<std::size_t>(K)];
+}
+
+/// Whether the records of the lists are of rays.
+constexpr bool hasRayRecords(RendererKind K) {
+  return K == RendererKind::Ray || K == RendererKind::Surfel;
+}
 
 struct Drawing {
   /// With opacity compensated for the dilation.
@@ -19,14 +38,13 @@ struct Drawing {
   /// What says so, for people, as "comment SplatRenderMode: mip"; empty if the
   /// file records nothing, which means the classic mode.
   std::string Source;
-  /// Where it is densest on each pixel's ray, not as a footprint; then the
-  /// other members do not apply.
-  bool AlongRays = false;
+  /// Splat, Ray or Surfel; the other members are of Splat.
+  RendererKind Renderer = RendererKind::Splat;
 
   /// Whether both give the same picture.
   bool drawsAs(const Drawing &Other) const {
     return Antialiased == Other.Antialiased && Dilation == Other.Dilation &&
-           AlongRays == Other.AlongRays;
+           Renderer == Other.Renderer;
   }
 };
 
@@ -40,28 +58,26 @@ struct DrawingRequest {
   std::optional<bool> Antialiased;
   std::optional<double> Dilation;
   // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
-  std::optional<bool> AlongRays{};
+  std::optional<RendererKind> Renderer{};
 };
 Drawing withRequest(Drawing D, const DrawingRequest &R);
 
 /// Parses the comments of a PLY, given without the keyword; the last of several
 /// is used. Recognized, case-insensitively:
-/// - `SplatRenderMode: default|mip` (Brush, splat-transform). A file that also
-///   says `Exported from Brush` has Brush's dilation for it, 0.1;
+/// - `SplatRenderMode: default|mip|2dgs` (Brush, splat-transform). A file that
+///   also says `Exported from Brush` has Brush's dilation for it, 0.1;
 /// - `antialiased 0|1` (Postshot);
-/// - `Dilation: PX2` and `SplatRenderer: splat|ray`, which drawingComments()
+/// - `Dilation: PX2` and `SplatRenderer: splat|ray|surfel`, which
+/// drawingComments()
 ///   writes.
-/// Errors: 2D Gaussians, unknown modes and renderers.
+/// Errors: unknown modes and renderers.
 Expected<Drawing> drawingOfComments(const std::string &Where,
                                     std::span<const std::string> Comments);
 
-/// Parses the key "model" of a SOG's description: default, antialiased, or an
-/// error as above.
+/// Parses the key "model" of a SOG's description: default, antialiased, 2dgs,
+/// or an error as above.
 Expected<Drawing> drawingOfModel(const std::string &Where,
                                  std::string_view Model);
-
-/// The error for a PLY with the properties of 2D Gaussians, without scale_2.
-Error flatGaussians(const std::string &Where, std::string_view Said);
 
 /// The header lines of a PLY that record \p D; empty for the classic mode.
 std::string drawingComments(const Drawing &D);

@@ -1,5 +1,6 @@
 // What files say of how a scene is to be drawn, and what becomes of it.
 #include "io/TestFiles.h"
+#include "scene/Activation.h"
 #include "scene/Drawing.h"
 #include "scene/SceneFile.h"
 #include "scene/formats/Ply.h"
@@ -55,18 +56,14 @@ TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
   for (const char *Comment :
        {" SplatRenderMode: 2dgs", " splatrendermode:2DGS"}) {
     const auto D = of({Comment});
-    ASSERT_FALSE(D);
-    EXPECT_EQ(D.error().Code, ExitCode::InputFile);
-    EXPECT_NE(D.error().What.find("selects 2D Gaussians (2DGS), which are not "
-                                  "supported"),
-              std::string::npos)
-        << D.error().What;
+    ASSERT_TRUE(D);
+    EXPECT_EQ(D->Renderer, RendererKind::Surfel);
   }
   const auto Other = of({" SplatRenderMode: banana\x1b[31m"});
   ASSERT_FALSE(Other);
   EXPECT_EQ(Other.error().What,
             "comment SplatRenderMode: banana\\x1b[31m selects an unknown "
-            "rendering mode, expected SplatRenderMode: default or mip");
+            "rendering mode, expected SplatRenderMode: default, mip or 2dgs");
   EXPECT_FALSE(of({" Dilation: much"}));
   EXPECT_FALSE(of({" Dilation: -1"}));
 }
@@ -74,12 +71,16 @@ TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
 TEST(Drawing, TheRendererIsKeptAndOthersAreRefused) {
   const auto Ray = of({" SplatRenderer: ray"});
   ASSERT_TRUE(Ray);
-  EXPECT_TRUE(Ray->AlongRays);
+  EXPECT_EQ(Ray->Renderer, RendererKind::Ray);
   EXPECT_EQ(drawingComments(*Ray), "comment SplatRenderer: ray\n");
   EXPECT_FALSE(Ray->drawsAs(*of({" SplatRenderer: splat"})));
   EXPECT_TRUE(of({})->drawsAs(*of({" splatrenderer: SPLAT"})));
-  EXPECT_FALSE(withRequest(*Ray, {{}, {}, false}).AlongRays);
-  EXPECT_TRUE(withRequest({}, {{}, {}, true}).AlongRays);
+  EXPECT_EQ(withRequest(*Ray, {{}, {}, RendererKind::Splat}).Renderer,
+            RendererKind::Splat);
+  EXPECT_EQ(withRequest({}, {{}, {}, RendererKind::Surfel}).Renderer,
+            RendererKind::Surfel);
+  EXPECT_EQ(drawingComments(*of({" SplatRenderer: surfel"})),
+            "comment SplatRenderer: surfel\n");
   EXPECT_FALSE(of({" SplatRenderer: traced"}));
 }
 
@@ -159,11 +160,13 @@ TEST(Drawing, EveryFormatThatCanSayItIsHeard) {
   ASSERT_TRUE(Named) << Named.error().What;
   EXPECT_TRUE(Named->DrawnAs.Antialiased);
   EXPECT_EQ(Named->DrawnAs.Source, "model antialiased");
+  const auto Flat = Sog({{"model", "2dgs"}});
+  ASSERT_TRUE(Flat) << Flat.error().What;
+  EXPECT_EQ(Flat->DrawnAs.Renderer, RendererKind::Surfel);
   const auto Default = Sog({{"model", "default"}, {"antialias", nullptr}});
   ASSERT_TRUE(Default);
   EXPECT_FALSE(Default->DrawnAs.Antialiased);
   const std::pair<Json, const char *> Refused[] = {
-      {{{"model", "2dgs"}}, "model 2dgs selects 2D Gaussians"},
       {{{"model", "5dgs"}}, "unknown rendering mode"},
       {{{"model", 2}}, "model is not a string"},
       {{{"antialias", "yes"}}, "antialias is not a Boolean"},
@@ -176,15 +179,24 @@ TEST(Drawing, EveryFormatThatCanSayItIsHeard) {
   }
 }
 
-TEST(Drawing, APlyOfFlatGaussiansIsRefusedByName) {
+TEST(Drawing, APlyOfTwoScalesIsOfSurfels) {
   const TestFolder Root;
-  std::string Flat = formatPly(numberedScene(2, 0));
-  const std::string Line = "property float scale_2\n";
-  Flat.replace(Flat.find(Line), Line.size(), "property float other\n");
+  Scene S = numberedScene(2, 0);
+  S.LogScales[2] = S.LogScales[5] = FlatLogScale;
+  const std::string Flat = formatPly(S, {false, {}, "", RendererKind::Surfel});
+  EXPECT_EQ(Flat.find("scale_2"), std::string::npos);
   const auto Read = readScene(Root.write("s.ply", Flat));
-  ASSERT_FALSE(Read);
-  EXPECT_NE(Read.error().What.find("2D Gaussians (2DGS)"), std::string::npos)
-      << Read.error().What;
+  ASSERT_TRUE(Read) << Read.error().What;
+  EXPECT_EQ(Read->DrawnAs.Renderer, RendererKind::Surfel);
+  EXPECT_EQ(Read->Gaussians.LogScales, S.LogScales);
+  EXPECT_EQ(Read->Gaussians.Quats, S.Quats);
+  // One that is flat along another axis needs all three.
+  std::swap(S.LogScales[1], S.LogScales[2]);
+  const auto Other = readScene(
+      Root.write("t.ply", formatPly(S, {false, {}, "", RendererKind::Surfel})));
+  ASSERT_TRUE(Other) << Other.error().What;
+  EXPECT_EQ(Other->DrawnAs.Renderer, RendererKind::Surfel);
+  EXPECT_EQ(Other->Gaussians.LogScales, S.LogScales);
 }
 
 } // namespace

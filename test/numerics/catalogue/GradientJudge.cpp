@@ -93,7 +93,7 @@ Expected<Finding> judgeGradients(splat::Launcher &L, const Way &W,
   const reference::Options Rules = referenceOptions(O);
   const auto G = splat::toReference<double>(Drawn);
   const auto View = splat::toReference<double>(S.View);
-  const bool IsAlongRays = O.Kind == splat::RendererKind::Ray;
+  const bool IsAlongRays = splat::hasRayRecords(O.Kind);
   const auto Picture =
       IsAlongRays ? reference::renderAlongRays(G, View, Rules)
                   : reference::blend(reference::project(G, View, Rules),

@@ -9,6 +9,7 @@
 #include "picture/View.h"
 #include "reference/AlongRays.h"
 #include "render/Renderer.h"
+#include "scene/Activation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,12 @@ RayCase rayCase(int Width, int Height, double Focal, float Near) {
   C.Options.Kind = splat::RendererKind::Ray;
   C.Options.Dilation = 0;
   C.Options.Near = Near;
+  return C;
+}
+
+RayCase surfels(RayCase C) {
+  C.Options.Kind = splat::RendererKind::Surfel;
+  splat::flatten(C.Scene);
   return C;
 }
 
@@ -218,6 +225,31 @@ RayCase inTheDisc(bool Parallel) {
   return C;
 }
 
+/// Surfels from the edge, to the bit and nearly, and smaller than a pixel: the
+/// low pass alone draws some. Rays of the middle column lie in some if the
+/// width is odd.
+RayCase edges(bool Parallel, int Width = 33) {
+  RayCase C = rayCase(Width, 25, 40, 0.2F);
+  if (Parallel)
+    makeParallel(C, 20);
+  Numbers R(107);
+  for (int I = 0; I < 24; ++I) {
+    const double Tilt = I % 3 == 0 ? 0 : R.uniform(-0.02, 0.02);
+    const double Size = I % 4 == 0 ? 1e-4 : R.uniform(0.05, 0.4);
+    const auto Half = static_cast<float>(std::sqrt(0.5));
+    // The normal is right, or nearly so, and passes the eye.
+    add(C.Scene,
+        {.Mean = {I % 3 == 0 ? 0 : static_cast<float>(R.uniform(-0.4, 0.4)),
+                  static_cast<float>(R.uniform(-0.4, 0.4)),
+                  static_cast<float>(R.uniform(1.8, 2.2))},
+         .Scale = {Size, Size * R.uniform(0.3, 1), 0},
+         .Quat = {Half * static_cast<float>(1 + Tilt), 0, Half, 0},
+         .Opacity = R.uniform(0.2, 0.8),
+         .Color = R.color()});
+  }
+  return surfels(std::move(C));
+}
+
 /// All centres are one point, through which a ray goes.
 RayCase coincident() {
   RayCase C = rayCase(33, 25, 40, 0.2F);
@@ -290,6 +322,23 @@ void addRays(std::vector<TrainingCase> &Cases) {
                             "scales up to 1e19, depths up to 1e6, quaternions "
                             "of any length beside what is culled, NaN too",
                             extremes()));
+  const std::string Edge =
+      "surfels from the edge, to the bit and nearly, and less than a pixel";
+  Cases.push_back(pictureOf("surfels-from-the-edge", Edge, edges(false),
+                            {"surfels-without-low-pass"}));
+  Cases.push_back(
+      pictureOf("parallel-surfels-from-the-edge", Edge, edges(true)));
+  Cases.push_back(pictureOf("surfels-behind-rays",
+                            "rays that begin behind the discs' planes",
+                            surfels(fromInside())));
+  Cases.push_back(
+      pictureOf("surfels-with-one-centre", One, surfels(coincident())));
+  Cases.push_back(gradientsOf("surfels-from-the-edge", Edge, edges(false, 32)));
+  Cases.push_back(
+      gradientsOf("parallel-surfels-from-the-edge", Edge, edges(true)));
+  Cases.push_back(gradientsOf("surfels-behind-rays",
+                              "rays that begin behind the discs' planes",
+                              surfels(fromInside()), {"surfels-back-by-rays"}));
   Cases.push_back(gradientsOf("rays-from-inside", Inside, fromInside(),
                               {"rays-back-by-plane"}));
   Cases.push_back(gradientsOf("rays-along-needles", End, alongNeedles(false)));

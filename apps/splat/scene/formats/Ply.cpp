@@ -12,6 +12,7 @@
 
 #include "io/PlyFile.h"
 #include "io/Unsupported.h"
+#include "scene/Activation.h"
 #include "scene/LocalFrame.h"
 #include "scene/UpDirection.h"
 #include "scene/formats/Dequantize.h"
@@ -35,6 +36,7 @@ namespace {
 struct Layout {
   int ShDegree = 0;
   std::vector<PlyReal> Means, LogScales, Quats, Opacity, Sh;
+  bool IsFlat = false; ///< two scales
   std::vector<std::size_t>
       ColourBytes;                  ///< of red, green, blue if there is no Sh
   std::vector<std::string> Skipped; ///< names of other properties
@@ -102,13 +104,12 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
       ShNames.push_back(std::move(Name));
   }
 
-  if (Vertex.find("scale_1") && !Vertex.find("scale_2"))
-    return flatGaussians(Where, "element vertex with scale_1 and no scale_2");
+  L.IsFlat = Vertex.find("scale_1") && !Vertex.find("scale_2");
   const struct {
     std::vector<PlyReal> &To;
     std::vector<std::string> Names;
   } Needed[] = {{L.Means, {"x", "y", "z"}},
-                {L.LogScales, numbered("scale", 3)},
+                {L.LogScales, numbered("scale", L.IsFlat ? 2 : 3)},
                 {L.Quats, numbered("rot", 4)},
                 {L.Opacity, {"opacity"}},
                 {L.Sh, std::move(ShNames)}};
@@ -161,7 +162,7 @@ void readRows(const PlyFile &File, const PlyElement &Vertex, const Layout &L,
   for (std::size_t Begin = 0; Begin < Vertex.Count; Begin += AtOnce) {
     const std::size_t Count = std::min(AtOnce, Vertex.Count - Begin);
     for (const auto &[To, From, Each] : Copied)
-      To.resize(Each * (Begin + Count));
+      To.resize(Each * (Begin + Count), FlatLogScale);
     inParallelParts(Count, OfThread, [&](std::size_t First, std::size_t End) {
       for (std::size_t I = Begin + First; I < Begin + End; ++I) {
         const Bytes Row = File.row(Vertex, I);
@@ -221,6 +222,8 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
   SceneFile Result;
   Result.Format = SceneFormat::Ply;
   Result.DrawnAs = std::move(*DrawnAs);
+  if (L->IsFlat) // 2D Gaussians
+    Result.DrawnAs.Renderer = RendererKind::Surfel;
   Result.Up = upOfComments(Read->header().Comments);
   Result.Skipped = L->Skipped;
   for (const PlyElement &E : Read->header().Elements)
@@ -228,6 +231,16 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
       Result.Skipped.push_back("element " + E.Name);
   readRows(*Read, *Vertex, *L, Result.Gaussians, Done);
   return Result;
+}
+
+/// As other programs write 2D Gaussians.
+static bool hasTwoScales(const Scene &S, const Drawing &D) {
+  if (D.Renderer != RendererKind::Surfel)
+    return false;
+  for (std::size_t I = 0; I < S.size(); ++I)
+    if (S.LogScales[3 * I + 2] != FlatLogScale)
+      return false;
+  return true;
 }
 
 std::string formatPly(const Scene &S, const Drawing &D) {
@@ -249,7 +262,8 @@ std::string formatPly(const Scene &S, const Drawing &D) {
   for (std::size_t K = 0; K < 3 * Later; ++K)
     Declare(fmt::format("f_rest_{}", K));
   Declare("opacity");
-  for (int C = 0; C < 3; ++C)
+  const std::size_t Scales = hasTwoScales(S, D) ? 2 : 3;
+  for (std::size_t C = 0; C < Scales; ++C)
     Declare(fmt::format("scale_{}", C));
   for (int C = 0; C < 4; ++C)
     Declare(fmt::format("rot_{}", C));
@@ -272,7 +286,7 @@ std::string formatPly(const Scene &S, const Drawing &D) {
       for (std::size_t K = 1; K <= Later; ++K)
         Put(Sh + 3 * K + C, 1);
     Put(&S.OpacityLogits[I], 1);
-    Put(&S.LogScales[3 * I], 3);
+    Put(&S.LogScales[3 * I], Scales);
     Put(&S.Quats[4 * I], 4);
   }
   return Out;

@@ -21,7 +21,7 @@ constexpr float Never = std::numeric_limits<float>::infinity();
 
 std::vector<ProgramSpec> densityPrograms(RendererKind Of) {
   kernels::density::Program Density;
-  if (Of == RendererKind::Ray)
+  if (hasRayRecords(Of))
     Density.USE_RAYS = EffectSwitch::compiled();
   return {Density, kernels::scan::Program{}, kernels::sort::Program{}};
 }

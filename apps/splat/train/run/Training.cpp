@@ -4,6 +4,7 @@
 #include "picture/Layout.h"
 #include "picture/SceneUnit.h"
 #include "picture/View.h"
+#include "scene/Activation.h"
 #include "train/data/Start.h"
 #include "train/run/RunRecord.h"
 #include "vorion/support/File.h"
@@ -276,8 +277,12 @@ Expected<Success> begin(const Work &W, Trainer &T) {
   const TrainSettings &S = R.Run.Settings;
   if (R.From.empty()) {
     noteStart(W);
-    T.start(startingScene(W.Photos, {R.Run.Seed, R.ShDegree, S.MostGaussians,
-                                     S.StartOpacity, S.StartScale}));
+    Scene Start =
+        startingScene(W.Photos, {R.Run.Seed, R.ShDegree, S.MostGaussians,
+                                 S.StartOpacity, S.StartScale});
+    if (R.Run.Kind == RendererKind::Surfel)
+      flatten(Start);
+    T.start(Start);
     return Success{};
   }
   auto Other = readCheckpoint(R.From);
@@ -367,6 +372,8 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
                          Trainer &T) {
   TrainOutcome &Out = W.Out;
   Out.Result = T.scene();
+  if (W.Request.Run.Kind == RendererKind::Surfel)
+    flatten(Out.Result); // training moved what stands for no scale
   const std::vector<double> Db =
       T.evaluate([&](const TrainView &V, Photo Drawn) {
         if (W.Request.KeepPictures)
