@@ -233,7 +233,8 @@ ELSEWHERE = (
     ("accuracy", "the reciprocal's error is within 3 %", "< 3 %", "holds", "3.1 % if the table's entries are spaced by the logarithm; evenly 32 to 55 %; a mantissa "
      "table reaches 1.2e-5", "[reciprocal units](lane-units.md#reciprocal-units)"),
     ("mechanisms", "compatible with ray tracing: alpha blending stays unchanged", "unchanged", "open", "in part: along rays (3DGUT, gsplat's `with_eval3d`) order, thresholds, "
-     "stop and colour's sums stay; alpha needs a quotient and 34 % more of a lane, a Gaussian 64 bytes in place of 48, and gradients eight moments in place of five",
+     "stop and colour's sums stay; alpha needs a quotient and 34 % more of a lane, a Gaussian 64 bytes in place of 48, and gradients eight moments in place of five; "
+     "surfels, too, with two more and a low pass",
      "[rays](tables/unification.md#rays-on-gaussians)"),
     ("power and area", "minimal hardware change to traditional rasterizers", "minimal", "open", "in gates a rasterizer of Gaussians grows by 5.7 to 13.2 % to draw triangles, "
      "one of triangles to 3.5 times its gates to draw Gaussians", "[unification](unification.md)"),

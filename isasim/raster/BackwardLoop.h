@@ -50,6 +50,7 @@ inline Sums gather(const Parts &P, bool InRows) {
   std::array<Sums, 16> Columns{};
   for (unsigned C = 0; C != 16; ++C) {
     std::vector<Sums> Nodes;
+    Nodes.reserve(P.Rows.size());
     for (const auto &Row : P.Rows)
       Nodes.push_back(Row[C]);
     if (InRows) {
