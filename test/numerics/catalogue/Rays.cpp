@@ -27,6 +27,7 @@ struct RayCase {
   splat::RenderOptions Options;
   /// What the device culls, and fp64 does without.
   Culled ExpectedCulls{};
+  // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
   std::vector<uint32_t> LeftOut{};
   /// Depths are equal to the bit, of which the file's order decides, so that no
   /// order is doubtful.
