@@ -104,6 +104,32 @@ Expected<Success> checkMesh(const RenderArguments &A, bool HasMesh) {
   return Success{};
 }
 
+/// A mirror and traced rays need each other wherever there is a mesh.
+Expected<Success> checkMirror(const RenderArguments &A) {
+  const auto Usage = [](std::string What) {
+    return Error{"", std::move(What), ExitCode::Usage};
+  };
+  const RenderOptions &O = A.Options;
+  if (O.IsMirror && !O.Surface)
+    return Usage("--material mirror is of a mesh, expected --mesh");
+  if (O.IsMirror && O.Kind != RendererKind::Trace)
+    return Usage("--material mirror needs traced rays, expected --renderer "
+                 "trace --path simt");
+  if (!O.Surface || O.Kind != RendererKind::Trace)
+    return Success{};
+  if (!O.IsMirror)
+    return Usage("--renderer trace draws a mesh as a mirror only, expected "
+                 "--material mirror, or --renderer splat");
+  if (A.Mesh.Light)
+    return Usage("--light does not shine on a mirror, expected no --light");
+  if (!A.Visible.empty())
+    return excludedByRays("--visible", RendererKind::Trace);
+  if (O.Surface->has(AlphaMode::Mask) || O.Surface->has(AlphaMode::Blend))
+    return Error{O.Surface->file(),
+                 "has transparent surfaces, expected opaque ones of a mirror"};
+  return Success{};
+}
+
 /// What a video cannot be written with.
 Expected<Success> checkVideo(const RenderArguments &A) {
   const auto Usage = [](std::string What) {
@@ -468,10 +494,8 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
                                 printable(File->DrawnAs.Source)));
   // In the frame of the scene as it is drawn.
   A.Options.Surface = joined(*OwnMesh, *AddedMesh, S->Origin);
-  if (A.Options.Kind == RendererKind::Trace && A.Options.Surface)
-    return excludedByRays("a mesh", RendererKind::Trace);
   for (const auto &Checked :
-       {checkMesh(A, A.Options.Surface != nullptr),
+       {checkMesh(A, A.Options.Surface != nullptr), checkMirror(A),
         checkTransparency(A.Options, A.Layers.needDepths(), A.Overlap),
         checkMeshCamera(A.Options, A.Cameras.File),
         checkMeshPrecision(A.Options, A.Cameras.File)})
@@ -632,6 +656,13 @@ Runner addRender(CLI::App &App) {
             "lists or, with several pictures, by their cost in the previous "
             "one (docs/ideas.md)");
   addMeshOptions(App, A->Mesh);
+  Group.next("Scene");
+  App.add_option_function<std::string>(
+         "--material",
+         [A](const std::string & /*Name*/) { A->Options.IsMirror = true; },
+         "Material of all meshes, with --renderer trace: mirror "
+         "(docs/meshes.md)")
+      ->check(CLI::IsMember({"mirror"}));
   addMeshPrecisionOptions(App, A->Options);
   Group.next("Beside the picture");
   writesFile(App.add_option("--visible", A->Visible,

@@ -142,13 +142,14 @@ static uint node_after(uint node) {
 #endif
 
 // A group is a warp and takes blocks of 4x4 rays, which lie in a picture of
-// `width` and `height`.
+// `width` and `height`. With `onward` they go on from what other rays have left
+// of the pixels.
 __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
 trace(__global const float *rays, __global const float *nodes,
       __global const uint *order, __global const splat_traced *shapes,
       __global const float4 *colors, __global float4 *pixels,
       __global splat_ray_work *work, splat_tree tree, uint width, uint height,
-      float cutoff, uint effects) {
+      float cutoff, uint effects, uint onward) {
   const uint lane = get_local_id(0);
   const uint x = get_group_id(0) * 4 + lane % 4;
   const uint y = get_group_id(1) * 4 + lane / 4;
@@ -174,6 +175,15 @@ trace(__global const float *rays, __global const float *nodes,
   float last = -INFINITY;
   uint last_number = 0;
   bool open = x < width && y < height;
+  if (onward) {
+    const float4 own = pixels[i];
+    red = own.x;
+    green = own.y;
+    blue = own.z;
+    transmittance = own.w;
+    done = work[i];
+    open &= farthest > nearest;
+  }
   while (vx_vote_any(open)) {
     done.passes += open;
     hit_window w;

@@ -114,6 +114,8 @@ struct RenderOptions {
   bool CullBlocks = false;
   /// A mesh that is drawn with the Gaussians, or null.
   std::shared_ptr<const Mesh> Surface;
+  /// Whether it is a mirror, which traced rays alone have.
+  bool IsMirror = false;
   /// The direction in which a light shines on the mesh, of length 1, in the
   /// world's axes.
   std::optional<std::array<float, 3>> Light;

@@ -60,8 +60,8 @@ texturesOf(const Mesh &M) {
   return {std::move(Materials), std::move(Texels)};
 }
 
-MeshBuffers uploadMesh(Launcher &Launch, const Mesh &M,
-                       const EffectPlan &Plan) {
+MeshBuffers uploadMesh(Launcher &Launch, const Mesh &M, const EffectPlan &Plan,
+                       RendererKind Kind) {
   const auto Upload = [&](std::string_view What, const auto &From) {
     const uint64_t Bytes = sizeof(From[0]) * uint64_t{From.size()};
     cl::Buffer To = Launch.allocate(What, Bytes);
@@ -93,7 +93,7 @@ MeshBuffers uploadMesh(Launcher &Launch, const Mesh &M,
     B.Linear = Upload("linear values", Linear);
   }
   std::vector<float> Normals;
-  if (Plan.done(effects::Light)) {
+  if (Plan.done(effects::Light) || Kind == RendererKind::Trace) {
     if (M.Normals.empty())
       Normals.resize(3 * M.Corners.size());
     B.Normals =
@@ -189,14 +189,19 @@ Frame Pipeline::setUpMesh(AlphaMode Mode) {
   return Own;
 }
 
+/// The nearest of the opaque triangles in each pixel.
+void Pipeline::showMesh() {
+  placeMesh();
+  Current.Surface.Visible =
+      Launch.allocate("visible triangles", VisibilityBytes * Current.pixels());
+  drawOpaque(setUpMesh(AlphaMode::Opaque));
+}
+
 void Pipeline::drawMesh() {
   MeshFrame &To = Current.Surface;
   const splat_view &V = Current.View;
   const bool HasLayers = Plan.done(effects::Layers);
-  placeMesh();
-  To.Visible =
-      Launch.allocate("visible triangles", VisibilityBytes * Current.pixels());
-  drawOpaque(setUpMesh(AlphaMode::Opaque));
+  showMesh();
   if (HasLayers) {
     clearLayers();
     // Layers are in front of what masks leave.

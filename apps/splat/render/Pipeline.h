@@ -40,12 +40,14 @@ struct MeshBuffers {
   /// of all textures; and the 256 values of a channel in linear light.
   std::optional<cl::Buffer> TextureCoordinates, MaterialOf, Materials, Texels,
       Linear;
-  std::optional<cl::Buffer> Normals; ///< with the effect \c Light
+  std::optional<cl::Buffer> Normals; ///< with the effect \c Light, and
+                                     ///< for \c RendererKind::Trace
   uint32_t Vertices = 0, Triangles = 0;
 };
 
 /// Copies what the effects of \p Plan need of \p M.
-MeshBuffers uploadMesh(Launcher &Launch, const Mesh &M, const EffectPlan &Plan);
+MeshBuffers uploadMesh(Launcher &Launch, const Mesh &M, const EffectPlan &Plan,
+                       RendererKind Kind = RendererKind::Splat);
 
 /// What a mesh leaves of a picture before Gaussians are blended.
 struct MeshFrame {
@@ -247,6 +249,8 @@ private:
   void shape(const Camera &C);
   void buildTree();
   void traceRays(const Camera &C);
+  cl::Buffer reflect(uint32_t Rays);
+  void traceThrough(const cl::Buffer &Rays, bool Onward);
   /// @}
   void project(const Camera &C);
   cl::Buffer cullBlocks();
@@ -259,6 +263,7 @@ private:
   void duplicate();
   void sortByTile();
   void placeMesh();
+  void showMesh();
   Frame setUpMesh(AlphaMode Mode);
   void drawMesh();
   void drawOpaque(const Frame &Triangles);

@@ -14,6 +14,7 @@
 #include "kernels/mesh_layers.cl.h"
 #include "kernels/mesh_raster.cl.h"
 #include "kernels/mesh_simt.cl.h"
+#include "kernels/mirror.cl.h"
 #include "kernels/normals.cl.h"
 #include "kernels/project.cl.h"
 #include "kernels/rasterize.cl.h"
@@ -68,12 +69,20 @@ static void addLists(const Function &Add, const EffectPlan &Effects,
 }
 
 /// From Gaussians to pixels by rays through a tree.
-template <typename Function> static void addTracing(const Function &Add) {
+template <typename Function>
+static void addTracing(const Function &Add, const EffectPlan &Effects) {
   Add(kernels::trace_shapes::Program{});
   Add(kernels::sort::Program{});
   Add(kernels::bvh::Program{});
   Add(kernels::trace_rays::Program{});
   Add(kernels::trace::Program{});
+  if (Effects.done(effects::Mesh)) {
+    Add(kernels::tiles::Program{});
+    Add(kernels::scan::Program{});
+    Add(kernels::mesh::Program{});
+    Add(kernels::mesh_simt::Program{});
+    Add(kernels::mirror::Program{});
+  }
 }
 
 RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
@@ -84,7 +93,7 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
     Plan.Programs.push_back(Program);
   };
   if (Options.Kind == RendererKind::Trace)
-    addTracing(Add);
+    addTracing(Add, Plan.Effects);
   else
     addLists(Add, Plan.Effects, Options);
   if (Plan.Effects.done(effects::ActivatedScene))

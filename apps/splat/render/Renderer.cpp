@@ -126,7 +126,9 @@ struct Arriving {
 Arriving startFinish(Launcher &Launch, const RenderPlan &Plan, const Frame &F,
                      const RenderOptions &Options) {
   // Without a background the pixels are the picture, but for 1 - T.
-  const bool HasMesh = Plan.Effects.done(effects::Mesh);
+  // A mirror's colours are in the pixels.
+  const bool HasMesh =
+      Plan.Effects.done(effects::Mesh) && Options.Kind != RendererKind::Trace;
   Arriving A{.Result = {},
              .Resolved = HasMesh || Plan.Effects.done(effects::Background),
              .Pixels = {}};
@@ -317,7 +319,8 @@ static GaussianBuffers upload(Launcher &Launch, const RenderPlan &Plan,
                               SceneSource S, const RenderOptions &Options) {
   GaussianBuffers B = uploadGaussians(Launch, S, Plan.Effects);
   if (Plan.Effects.done(effects::Mesh))
-    B.Surface = uploadMesh(Launch, *Options.Surface, Plan.Effects);
+    B.Surface =
+        uploadMesh(Launch, *Options.Surface, Plan.Effects, Options.Kind);
   return B;
 }
 

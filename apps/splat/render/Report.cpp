@@ -183,7 +183,8 @@ Expected<Json> drawnJson(const Camera &View, const RenderOptions &O,
         {"subpixel_bits", O.SubpixelBits},
         {"depth", name(O.MeshDepth)},
         {"filter_bits", O.FilterBits ? Json(*O.FilterBits) : Json()},
-        {"light", O.Light ? Json(*O.Light) : Json()}};
+        {"light", O.Light ? Json(*O.Light) : Json()},
+        {"material", O.IsMirror ? Json("mirror") : Json()}};
   return Report;
 }
 

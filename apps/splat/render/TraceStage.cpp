@@ -1,9 +1,12 @@
-// The stages of traced rays: shapes of Gaussians, a tree of their boxes, and
-// rays through it.
+// The stages of traced rays: shapes of Gaussians, a tree of their boxes, rays
+// through it, and those that a mirror reflects.
+#include "effects/Registry.h"
 #include "kernels/bvh.cl.h"
+#include "kernels/mirror.cl.h"
 #include "kernels/trace.cl.h"
 #include "kernels/trace_rays.cl.h"
 #include "kernels/trace_shapes.cl.h"
+#include "mesh/Mesh.h"
 #include "picture/View.h"
 #include "render/Pipeline.h"
 
@@ -38,6 +41,12 @@ void Pipeline::trace(const Camera &C) {
     return;
   Launch.beginStage(Stage::BuildTree);
   buildTree();
+  if (Launch.failure())
+    return;
+  if (Plan.done(effects::Mesh)) {
+    Launch.beginStage(Stage::Mesh);
+    showMesh();
+  }
   if (Launch.failure())
     return;
   Launch.beginStage(Stage::Trace);
@@ -130,6 +139,16 @@ void Pipeline::traceRays(const Camera &C) {
   Current.Pixels = Launch.allocate("pixels", 16 * uint64_t{Rays});
   To.Work =
       Launch.allocate("work of rays", sizeof(splat_ray_work) * uint64_t{Rays});
+  const bool HasMirror = Plan.done(effects::Mesh);
+  const cl::Buffer Reflected = HasMirror ? reflect(Rays) : cl::Buffer();
+  traceThrough(To.Rays, /*Onward=*/false);
+  if (HasMirror)
+    traceThrough(Reflected, /*Onward=*/true);
+}
+
+/// What the rays of a buffer take becomes pixels, or is added to them.
+void Pipeline::traceThrough(const cl::Buffer &Rays, bool Onward) {
+  const TraceFrame &To = Current.Traced;
   // A warp takes 4x4 rays.
   const auto Blocks = [](uint32_t Pixels) {
     return std::size_t{Pixels + 3} / 4;
@@ -137,7 +156,7 @@ void Pipeline::traceRays(const Camera &C) {
   Launch.run(cl::NDRange(Blocks(Current.View.size[0]) * Lanes,
                          Blocks(Current.View.size[1])),
              cl::NDRange(Lanes, 1),
-             kernels::trace::trace{.rays = To.Rays,
+             kernels::trace::trace{.rays = Rays,
                                    .nodes = To.Nodes,
                                    .order = Current.Order,
                                    .shapes = To.Shapes,
@@ -148,7 +167,25 @@ void Pipeline::traceRays(const Camera &C) {
                                    .width = Current.View.size[0],
                                    .height = Current.View.size[1],
                                    .cutoff = Options.Cutoff,
-                                   .effects = Current.View.effects});
+                                   .effects = Current.View.effects,
+                                   .onward = cl_uint{Onward}});
+}
+
+/// The mesh ends rays, and reflects them into a buffer of their own.
+cl::Buffer Pipeline::reflect(uint32_t Rays) {
+  const MeshBuffers &M = Current.Gaussians.Surface;
+  const cl::Buffer Reflected =
+      words("reflected rays", RAY_PLANES * uint64_t{Rays});
+  Launch.run(itemsFor(Rays), GroupSize,
+             kernels::mirror::mirror{.camera = Current.Camera,
+                                     .points = Current.Surface.Points,
+                                     .corners = M.Corners,
+                                     .normals = *M.Normals,
+                                     .visible = Current.Surface.Visible,
+                                     .rays = Current.Traced.Rays,
+                                     .reflected = Reflected,
+                                     .count = Rays});
+  return Reflected;
 }
 
 RayWork readRayWork(Launcher &Launch, const Frame &F) {

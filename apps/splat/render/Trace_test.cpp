@@ -142,7 +142,8 @@ TEST_F(TracedRays, TheTreeLosesNoHit) {
                                   .width = F.View.size[0],
                                   .height = F.View.size[1],
                                   .cutoff = Options.Cutoff,
-                                  .effects = F.View.effects});
+                                  .effects = F.View.effects,
+                                  .onward = cl_uint{0}});
       EXPECT_EQ(download(L, F.Pixels, 4 * Rays), download(L, Pixels, 4 * Rays))
           << Count;
       const auto Own = download<splat_ray_work>(L, T.Work, Rays),
