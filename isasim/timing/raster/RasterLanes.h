@@ -19,7 +19,7 @@ struct LaneWork {
   std::array<uint64_t, raster::BlendUnitCount> Blended{};
   uint64_t Gradients = 0;    ///< of pixels, in the backward mode
   uint64_t RayGradients = 0; ///< likewise, where records are of rays
-  uint64_t LowPassed = 0;    ///< pixels that lanes got with the low pass of rays
+  uint64_t LowPassed = 0; ///< pixels that lanes got with the low pass of rays
   uint64_t SurfelGradients = 0; ///< of RayGradients those with it
   /// Pixels that lanes got of other primitives than conics, by row of
   /// FrontEnds, and those of opaque ones that were covered and in front.
