@@ -94,6 +94,8 @@ def of_tiles(rows):
 
 def of_training(rows):
     beside = [row for row in training.by_prototype({"rows": rows}) if row["kernels"]]
+    if not beside:
+        return {}
     return {"training.fastest": span((row["speedup"] for row in beside), "{:.1f}"),
             "training.back": span((row["back_speedup"] for row in beside), "{:.1f}")}
 
@@ -155,8 +157,8 @@ REFUSED = r"\def\unmeasured#1{\errmessage{no result #1, expected a section of sc
 MARKED = r"\def\unmeasured#1{\emph{[not measured]}}"
 
 
-def generate(data, drawn, folder):
-    """drawn: the result of section draws, or None."""
+def generate(data, drawn, partial, folder):
+    """drawn: the result of section draws, or None; partial: mark what is not measured."""
     rows = document.ordered(document.rows_of({**data, **({"draws": drawn} if drawn else {})}))
     found = numbers(data)
     # Estimated rows have sentences for keys, which the note does not name.
@@ -166,8 +168,8 @@ def generate(data, drawn, folder):
     kinds = [row["verdict"] for row in rows]
     found.update(claims=str(len(rows)), clock=" and ".join(sorted({str(v) for of in data.values() for v in of.get("clocks", ())})),
                  **{what: str(kinds.count(verdict)) for what, verdict in (("holds", HOLDS), ("not", NOT), ("open", OPEN))})
-    write(folder, "numbers.tex", (REFUSED if len(data) == len(SECTIONS) else MARKED) + "\n" + "".join(rf"\expandafter\def\csname result@{key}\endcsname{{{escaped(value)}}}" + "\n"
-                                         for key, value in found.items()))
+    write(folder, "numbers.tex", (MARKED if partial else REFUSED) + "\n"
+          + "".join(rf"\expandafter\def\csname result@{key}\endcsname{{{escaped(value)}}}" + "\n" for key, value in found.items()))
     write(folder, "claims.tex", tabular("p{76mm}p{34mm}p{24mm}p{34mm}", ("claim", "paper", "verdict", "holds in"),
                                         [(row["claim"], row["paper"], row["verdict"], row["held"]) for row in rows]))
     moved = energy.moved(data["energy"]["rows"][0]["given"]["area_and_power"]["rows"]) if "energy" in data else []
@@ -214,7 +216,7 @@ def main():
         print(f"report.sh: error: no {lacking[0]}, expected the Debian packages that scripts/README.md names, or --no-pdf", file=sys.stderr)
         return 3
     os.makedirs(args.out, exist_ok=True)
-    generate(data, store.read("draws"), args.out)
+    generate(data, store.read("draws"), args.partial, args.out)
     if args.no_pdf:
         return 0
     if not typeset(args.out):
