@@ -342,11 +342,7 @@ void addRendererOption(CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
                        const std::vector<RendererKind> &Kinds) {
   addRendererOption(App, Kind, Kinds);
   App.get_option("--renderer")->each([&Drawn](const std::string &Chosen) {
-    for (const RendererKind K : TrainedRenderers)
-      if (Chosen == name(K))
-        Drawn.Renderer = K;
-    if (Chosen == name(RendererKind::Trace))
-      Drawn.Renderer = RendererKind::Splat;
+    Drawn.Renderer = trainedRenderer(Chosen).value_or(RendererKind::Splat);
   });
 }
 

@@ -100,19 +100,15 @@ void addBackwardOptions(CLI::App &App, BackwardOptions &B);
 /// Checks the values for the path \p Blending; an error is a usage error.
 Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
 
-/// Renderers that training has, too.
-inline const std::vector<RendererKind> TrainedRenderers{
-    RendererKind::Splat, RendererKind::Ray, RendererKind::Surfel};
-
 /// Declares --renderer with \p Kinds.
-void addRendererOption(
-    CLI::App &App, RendererKind &Kind,
-    const std::vector<RendererKind> &Kinds = TrainedRenderers);
+void addRendererOption(CLI::App &App, RendererKind &Kind,
+                       const std::vector<RendererKind> &Kinds = {
+                           TrainedRenderers.begin(), TrainedRenderers.end()});
 /// The same, for scenes whose files may name one: notes in \p Drawn that it is
 /// given.
-void addRendererOption(
-    CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
-    const std::vector<RendererKind> &Kinds = TrainedRenderers);
+void addRendererOption(CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
+                       const std::vector<RendererKind> &Kinds = {
+                           TrainedRenderers.begin(), TrainedRenderers.end()});
 
 /// drawAs(), with the renderer that \p D names. A scene that is drawn as
 /// surfels loses each Gaussian's smallest scale.

@@ -8,16 +8,16 @@ namespace vorion::splat {
 
 namespace {
 
-Finding detect(const EffectInputs &In) {
-  const RendererKind Kind = In.Options.Kind;
-  const bool Is = hasRayRecords(Kind);
-  return {Is, fmt::format("--renderer {}", name(Kind)), Is};
+Finding byRenderer(const EffectInputs &In, bool Is) {
+  return {Is, fmt::format("--renderer {}", name(In.Options.Kind)), Is};
+}
+
+Finding detectRays(const EffectInputs &In) {
+  return byRenderer(In, hasRayRecords(In.Options.Kind));
 }
 
 Finding detectSurfels(const EffectInputs &In) {
-  const RendererKind Kind = In.Options.Kind;
-  const bool Is = Kind == RendererKind::Surfel;
-  return {Is, fmt::format("--renderer {}", name(Kind)), Is};
+  return byRenderer(In, In.Options.Kind == RendererKind::Surfel);
 }
 
 } // namespace
@@ -27,7 +27,7 @@ const Effect effects::Rays{
     .Kind = EffectKind::Scene,
     .What = "records of rays, and a quotient for each pixel and Gaussian",
     .Macro = "USE_RAYS",
-    .Detect = detect,
+    .Detect = detectRays,
     .Neutral = false,
     .ByCamera = true};
 

@@ -3,10 +3,8 @@
 #include "io/Bytes.h"
 #include "vorion/support/Letters.h"
 
-#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
-#include <iterator>
 #include <limits>
 
 namespace vorion::splat {
@@ -16,8 +14,6 @@ constexpr std::string_view ModeKey = "splatrendermode:";
 constexpr std::string_view FlagKey = "antialiased ";
 constexpr std::string_view DilationKey = "dilation:";
 constexpr std::string_view RendererKey = "splatrenderer:";
-constexpr RendererKind Recorded[] = {RendererKind::Splat, RendererKind::Ray,
-                                     RendererKind::Surfel};
 /// What Brush dilates by where it compensates, as Mip-Splatting does.
 constexpr double BrushDilation = 0.1;
 
@@ -68,9 +64,8 @@ std::optional<Error> take(const std::string &Where, std::string_view Comment,
       return unknown(Where, Source(), ExpectedDilation);
     D.Dilation = Dilation;
   } else if (const auto Renderer = after(RendererKey, Lower)) {
-    const auto *Found = std::ranges::find(
-        Recorded, *Renderer, [](RendererKind K) { return name(K); });
-    if (Found == std::end(Recorded))
+    const auto Found = trainedRenderer(*Renderer);
+    if (!Found)
       return unknown(Where, Source(), "SplatRenderer: splat, ray or surfel");
     D.Renderer = *Found;
   }
@@ -78,6 +73,13 @@ std::optional<Error> take(const std::string &Where, std::string_view Comment,
 }
 
 } // namespace
+
+std::optional<RendererKind> trainedRenderer(std::string_view Name) {
+  for (const RendererKind K : TrainedRenderers)
+    if (name(K) == Name)
+      return K;
+  return std::nullopt;
+}
 
 bool isDilation(double Variance) {
   return Variance >= 0 && Variance <= std::numeric_limits<float>::max();

@@ -30,6 +30,13 @@ constexpr bool hasRayRecords(RendererKind K) {
   return K == RendererKind::Ray || K == RendererKind::Surfel;
 }
 
+/// Those for which scenes are trained, and which files record.
+inline constexpr std::array<RendererKind, 3> TrainedRenderers{
+    RendererKind::Splat, RendererKind::Ray, RendererKind::Surfel};
+
+/// The one of these with the name \p Name.
+std::optional<RendererKind> trainedRenderer(std::string_view Name);
+
 struct Drawing {
   /// With opacity compensated for the dilation.
   bool Antialiased = false;
@@ -67,9 +74,8 @@ Drawing withRequest(Drawing D, const DrawingRequest &R);
 /// - `SplatRenderMode: default|mip|2dgs` (Brush, splat-transform). A file that
 ///   also says `Exported from Brush` has Brush's dilation for it, 0.1;
 /// - `antialiased 0|1` (Postshot);
-/// - `Dilation: PX2` and `SplatRenderer: splat|ray|surfel`, which
-/// drawingComments()
-///   writes.
+/// - `Dilation: PX2` and `SplatRenderer: splat|ray|surfel`, as
+///   drawingComments() writes them.
 /// Errors: unknown modes and renderers.
 Expected<Drawing> drawingOfComments(const std::string &Where,
                                     std::span<const std::string> Comments);

@@ -52,13 +52,16 @@ TEST(Drawing, CommentsOfEachProgramAreKnown) {
   }
 }
 
-TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
+TEST(Drawing, FlatGaussiansAreSurfels) {
   for (const char *Comment :
        {" SplatRenderMode: 2dgs", " splatrendermode:2DGS"}) {
     const auto D = of({Comment});
     ASSERT_TRUE(D);
     EXPECT_EQ(D->Renderer, RendererKind::Surfel);
   }
+}
+
+TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
   const auto Other = of({" SplatRenderMode: banana\x1b[31m"});
   ASSERT_FALSE(Other);
   EXPECT_EQ(Other.error().What,
