@@ -37,7 +37,23 @@ struct Body {
 /// What a pixel sees of a Gaussian.
 struct SeenBody : Seen {
   bool IsOnPicture = false; ///< the low pass has more than the ray
+  double Square = 0;        ///< of the body's deviations from the ray
 };
+
+/// The density \p Square deviations, squared, from the mean.
+double density(const Options &O, double Square) {
+  return std::exp(O.FalloffDegree == 4 ? -Square * Square / 18 : -Square / 2);
+}
+
+/// The square at which a density is \p Least, and by how much q / 2 changes its
+/// logarithm at \p Square.
+double squareAt(const Options &O, double Least) {
+  return O.FalloffDegree == 4 ? std::sqrt(std::max(0., -18 * std::log(Least)))
+                              : -2 * std::log(Least);
+}
+double rate(const Options &O, double Square) {
+  return O.FalloffDegree == 4 ? 2. / 9 * Square : 1;
+}
 
 /// v^T M^-1 v of a symmetric M, its entries being xx, xy, yy.
 double throughInverse(const glm::dvec3 &M, double Det, const glm::dvec2 &V) {
@@ -146,9 +162,8 @@ public:
         B.Axes[K] *= G.Scales[I][K];
       B.Squares = G.Scales[I] * G.Scales[I];
       B.Widest = std::max({B.Squares.x, B.Squares.y, B.Squares.z});
-      B.Deviation =
-          2 * std::log(G.Opacities[I] /
-                       (leastAlpha<double>(O.AlphaCutoff) * (1 - DoubtBand)));
+      B.Deviation = squareAt(O, leastAlpha<double>(O.AlphaCutoff) *
+                                    (1 - DoubtBand) / G.Opacities[I]);
       if (O.LowPass)
         B.Place = C.Focal * glm::dvec2(B.Mean) /
                       (C.Optics.Model->IsParallel ? 1 : B.Mean.z) +
@@ -206,7 +221,8 @@ private:
     const double Ahead = C.Optics.Model->IsParallel ? 1 : ahead(B, R, From);
     if (Ahead < -DoubtBand && !O.LowPass)
       return;
-    double Wanted = Ahead < 0 ? 0 : wanted(B, G.Opacities[I], R, From, Far);
+    const auto [Shown, Square] = shadow(B, G.Opacities[I], R, From, Far);
+    double Wanted = Ahead < 0 ? 0 : Shown * density(O, Square);
     bool IsOnPicture = false, IsBetween = false;
     if (O.LowPass) {
       const glm::dvec2 Off = Place - B.Place;
@@ -221,7 +237,8 @@ private:
                                                : B.Mean.z,
                        static_cast<int32_t>(I), Wanted,
                        std::abs(Ahead) <= DoubtBand || IsBetween},
-                      IsOnPicture});
+                      IsOnPicture,
+                      Square});
   }
 
   void seeAlong(std::size_t I, const PixelRay &R, const glm::dvec3 &From,
@@ -230,7 +247,7 @@ private:
     const double Depth = C.Optics.byDistance()
                              ? M.Along
                              : M.Along * glm::dot(R.Ahead, R.Direction);
-    const double Wanted = G.Opacities[I] * std::exp(-0.5 * M.Square);
+    const double Wanted = G.Opacities[I] * density(O, M.Square);
     const bool IsSeen = inFront(Depth, O),
                IsAtOrigin = near(Depth, nearLimit(O));
     if ((IsSeen || IsAtOrigin) &&
@@ -239,8 +256,11 @@ private:
           {{Depth, static_cast<int32_t>(I), IsSeen ? Wanted : 0, IsAtOrigin}});
   }
 
-  /// Before the clamp.
-  double wanted(const Body &B, double Opacity, const PixelRay &R,
+  /// How a ray sees a body: the opacity, 0 of what is none, and the square.
+  struct Shadow {
+    double Opacity, Square;
+  };
+  Shadow shadow(const Body &B, double Opacity, const PixelRay &R,
                 const glm::dvec3 &From, double Far) const {
     // The rows take away what is along the ray. What they leave of the mean and
     // the covariance is on the picture, where the density's largest value on
@@ -255,10 +275,10 @@ private:
     const double Det0 = sharpDeterminant(F);
     const double Det = Det0 + H * (S[0] + S[2]) - H * H;
     if (!(Det > 0) || !std::isfinite(Det))
-      return 0;
+      return {0, 0};
     if (O.Antialiased)
       Opacity *= std::sqrt(std::max(LeastDeterminantRatio, Det0 / Det));
-    return Opacity * std::exp(-0.5 * throughInverse(S, Det, Off));
+    return {Opacity, throughInverse(S, Det, Off)};
   }
 
   const Gaussians<double> &G;
@@ -271,7 +291,7 @@ private:
 /// What a pixel blends, front to back; the alphas are those before the clamp.
 struct Blended {
   int32_t Index;
-  double Alpha, Wanted, T;
+  double Alpha, Wanted, T, Square;
   bool IsOnPicture;
 };
 
@@ -308,8 +328,9 @@ struct RaySums {
     Place += 2 * Weight * Off;
   }
   void add(const glm::dvec3 &Scale, const Body &B, const glm::dvec3 &Y,
-           double Weight) {
+           double Weight, double Rate) {
     S += Weight;
+    Weight *= Rate;
     Mean += Weight * (B.Turn * Y);
     Scales += Weight * Scale * Y * Y;
     for (int K = 0; K < 3; ++K) {
@@ -326,7 +347,7 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
                                 const Camera<double> &C, const Options &O,
                                 RayDepths By) {
   assert(By != RayDepths::Ray || (O.Dilation == 0 && !O.LowPass));
-  assert(!O.LowPass || O.Dilation == 0);
+  assert(!O.LowPass || (O.Dilation == 0 && O.FalloffDegree == 2));
   Picture<double> P;
   P.Width = C.Width;
   P.Height = C.Height;
@@ -423,7 +444,8 @@ Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
             continue;
           if (isFull(T * (1 - Alpha), O))
             break;
-          Pixel.push_back({S.Index, Alpha, S.Alpha, T, S.IsOnPicture});
+          Pixel.push_back(
+              {S.Index, Alpha, S.Alpha, T, S.Square, S.IsOnPicture});
           T *= 1 - Alpha;
         }
         const double ByLast = glm::dot(Background, U.Render[At]) - U.Alpha[At];
@@ -447,7 +469,7 @@ Gradients alongRaysBackward(const Gaussians<double> &G, const Camera<double> &C,
           else
             Sums.add(Scales, Shape,
                      nearestOverCovariance(Shape, Scales, *Rays.Rays[Ray]),
-                     Weight);
+                     Weight, rate(O, B.Square));
         }
       }
   });

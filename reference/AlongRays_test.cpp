@@ -71,9 +71,10 @@ TEST(AlongRays, OneGaussianIsItsLargestDensityOnEachRay) {
   const double Z = 2, Scale = 0.3, Opacity = 0.8;
   Gaussians<double> G;
   addRound(G, {0.2, -0.1, Z}, Scale, Opacity, glm::dvec3(1));
-  Options O;
-  O.Dilation = 0;
-  const auto P = renderAlongRays(G, C, O);
+  Options O, Four;
+  O.Dilation = Four.Dilation = 0;
+  Four.FalloffDegree = 4;
+  const auto P = renderAlongRays(G, C, O), PFour = renderAlongRays(G, C, Four);
   for (const glm::ivec2 Pixel : {glm::ivec2(20, 10), {37, 21}, {50, 40}}) {
     const glm::dvec3 Ray((glm::dvec2(Pixel) + 0.5 - C.Principal) / C.Focal, 1);
     const glm::dvec3 Beside =
@@ -82,6 +83,8 @@ TEST(AlongRays, OneGaussianIsItsLargestDensityOnEachRay) {
     const auto At = static_cast<std::size_t>(Pixel.y * C.Width + Pixel.x);
     EXPECT_NEAR(P.Render[At].x, Alpha, 1e-12);
     EXPECT_NEAR(P.Transmittance[At], 1 - Alpha, 1e-12);
+    const double Q = glm::dot(Beside, Beside);
+    EXPECT_NEAR(PFour.Render[At].x, Opacity * std::exp(-Q * Q / 18), 1e-12);
   }
   // On the ray through the mean the dilation is that of a footprint.
   O.Dilation = 0.3;
@@ -203,9 +206,11 @@ Gaussians<double> nearScene(bool Surfels) {
 
 TEST(AlongRays, GradientsAreTheDerivative) {
   for (const LensModel *M : {&lenses::Pinhole, &lenses::Orthographic})
-    for (const auto &[Rule, Surfels] : {std::pair{Rules::Inria, false},
-                                        {Rules::Gsplat, false},
-                                        {Rules::Gsplat, true}}) {
+    for (const auto &[Rule, Surfels, Degree] :
+         {std::tuple{Rules::Inria, false, 2},
+          {Rules::Inria, false, 4},
+          {Rules::Gsplat, false, 2},
+          {Rules::Gsplat, true, 2}}) {
       auto C = frontCamera(20, 16, 14);
       setLens(C, *M, {});
       C.Rotation = glm::dmat3(0.8, 0.36, -0.48, 0, 0.8, 0.6, 0.6, -0.48, 0.64);
@@ -215,6 +220,7 @@ TEST(AlongRays, GradientsAreTheDerivative) {
       O.Dilation = 0;
       O.Rule = Rule;
       O.LowPass = Surfels;
+      O.FalloffDegree = Degree;
       O.Near = 0.05;
       O.Background[1] = 0.4F;
       Upstream U;

@@ -125,6 +125,10 @@ struct Options {
   /// exp(-d^2) d px from its mean on the picture, the low-pass filter of 2D
   /// Gaussians (Huang et al. 2024, section 4.2).
   bool LowPass = false;
+  /// Along rays, q being the square of the distance in standard deviations: 2,
+  /// a density of exp(-q / 2), or 4, exp(-q^2 / 18) (Moenne-Loccoz et al.
+  /// 2024).
+  int FalloffDegree = 2;
   double Cutoff = 1e-4; ///< transmittance at which a pixel ends
   int AlphaCutoff = 1;  ///< smallest alpha that is blended, in 1/255
   int DepthBits = 32;   ///< leading bits of a depth's fp32 that order: 1 to 32

@@ -347,6 +347,10 @@ int main(int Count, char **Values) {
   App.add_flag("--surfels", A.Options.LowPass,
                "With --along-rays: take its smallest scale from each Gaussian, "
                "with the low-pass filter of 2D Gaussians");
+  App.add_option("--falloff-degree", A.Options.FalloffDegree,
+                 "With --along-rays: degree of the density's falloff")
+      ->check(CLI::IsMember({2, 4}))
+      ->capture_default_str();
   App.add_option("--upstream", A.Upstream,
                  "With --along-rays: gradients of a loss, as for splat "
                  "gradients");

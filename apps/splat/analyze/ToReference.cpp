@@ -156,6 +156,7 @@ reference::Options toReference(const RenderOptions &O) {
   R.Antialiased = O.Antialiased;
   R.Dilation = double{O.Dilation};
   R.LowPass = O.Kind == RendererKind::Surfel;
+  R.FalloffDegree = static_cast<int>(O.FalloffDegree);
   R.Cutoff = double{O.Cutoff};
   R.AlphaCutoff = static_cast<int>(O.AlphaCutoff);
   R.DepthBits = static_cast<int>(O.DepthBits);

@@ -92,6 +92,7 @@ reportOf(const EvalArguments &A, const SceneFile &File, const Capture &C,
                  {"support", name(A.Options.Reach)},
                  {"path", name(A.Options.Blending)},
                  {"renderer", name(A.Options.Kind)},
+                 {"falloff_degree", A.Options.FalloffDegree},
                  {"antialiased", A.Options.Antialiased},
                  {"dilation", A.Options.Dilation},
                  {"background", A.Options.Background},
@@ -123,8 +124,11 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   if (!File)
     return File.error();
   drawByFile(A.Options, File->DrawnAs, File->Gaussians);
-  if (auto Checked = checkRenderer(A.Options, A.Scene.Options.Drawn); !Checked)
-    return Checked;
+  for (const auto &Checked :
+       {checkRenderer(A.Options, A.Scene.Options.Drawn),
+        checkFalloff(A.Options.Kind, A.Scene.Options.Drawn.FalloffDegree)})
+    if (!Checked)
+      return Checked;
   const auto C = readCapture(A.Capture, A.Read);
   if (!C)
     return C.error();

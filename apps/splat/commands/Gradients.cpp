@@ -150,8 +150,10 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   if (!File)
     return File.error();
   drawByFile(A.Options, File->DrawnAs, File->Gaussians);
-  for (const auto &Checked : {checkGradientOptions(A.Options, A.Backward),
-                              checkRenderer(A.Options, A.Scene.Options.Drawn)})
+  for (const auto &Checked :
+       {checkGradientOptions(A.Options, A.Backward),
+        checkRenderer(A.Options, A.Scene.Options.Drawn),
+        checkFalloff(A.Options.Kind, A.Scene.Options.Drawn.FalloffDegree)})
     if (!Checked)
       return Checked;
   const auto All = readCameras(A.Cameras);

@@ -338,9 +338,20 @@ void addRendererOption(CLI::App &App, RendererKind &Kind,
             "or traced (docs/cameras.md)");
 }
 
+void addFalloffOption(CLI::App &App, std::optional<unsigned> &Degree,
+                      std::string_view Default) {
+  const HelpGroup Group(App, "Picture");
+  addSize(App, "--falloff-degree", Degree, {2, 4},
+          "Degree of a Gaussian's density along rays: exp(-q / 2) or, as in "
+          "3DGRT, exp(-q^2 / 18), q being the square of the distance in "
+          "standard deviations",
+          Default);
+}
+
 void addRendererOption(CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
                        const std::vector<RendererKind> &Kinds) {
   addRendererOption(App, Kind, Kinds);
+  addFalloffOption(App, Drawn.FalloffDegree, "the scene file's, or 2");
   App.get_option("--renderer")->each([&Drawn](const std::string &Chosen) {
     Drawn.Renderer = trainedRenderer(Chosen).value_or(RendererKind::Splat);
   });
@@ -351,7 +362,17 @@ void drawByFile(RenderOptions &O, const Drawing &D, Scene &S) {
     O.Kind = D.Renderer;
   if (O.Kind == RendererKind::Surfel)
     flatten(S);
+  if (hasFalloffDegree(O.Kind))
+    O.FalloffDegree = D.FalloffDegree;
   drawAs(O, D);
+}
+
+Expected<Success> checkFalloff(RendererKind Kind,
+                               const std::optional<unsigned> &Degree) {
+  if (Degree.value_or(2) == 2 || hasFalloffDegree(Kind))
+    return Success{};
+  return usage("--falloff-degree 4 is of rays, expected --renderer ray or "
+               "trace");
 }
 
 void warnOfRays(const Drawing &D, const std::string &Path) {

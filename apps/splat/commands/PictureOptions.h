@@ -110,8 +110,16 @@ void addRendererOption(CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
                        const std::vector<RendererKind> &Kinds = {
                            TrainedRenderers.begin(), TrainedRenderers.end()});
 
-/// drawAs(), with the renderer that \p D names. A scene that is drawn as
-/// surfels loses each Gaussian's smallest scale.
+/// Declares --falloff-degree; \p Default is what stands for it without.
+void addFalloffOption(CLI::App &App, std::optional<unsigned> &Degree,
+                      std::string_view Default);
+
+/// Refuses a \p Degree that \p Kind has not; a usage error.
+Expected<Success> checkFalloff(RendererKind Kind,
+                               const std::optional<unsigned> &Degree);
+
+/// drawAs(), with the renderer and falloff that \p D names. A scene that is
+/// drawn as surfels loses each Gaussian's smallest scale.
 void drawByFile(RenderOptions &O, const Drawing &D, Scene &S);
 
 /// Says that a scene \p Path trained for another renderer is drawn as

@@ -476,8 +476,11 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   A.Options.Light = A.Mesh.Light;
   A.Options.KeepVisible = !A.Visible.empty();
   drawByFile(A.Options, File->DrawnAs, File->Gaussians);
-  if (auto Checked = checkRenderer(A); !Checked)
-    return Checked;
+  for (const auto &Checked :
+       {checkRenderer(A),
+        checkFalloff(A.Options.Kind, A.Scene.Options.Drawn.FalloffDegree)})
+    if (!Checked)
+      return Checked;
   const Scene *S = &File->Gaussians;
   const auto Cameras =
       camerasToDraw(A.Cameras, *File, A.Options.Convention, A.Options.Near);

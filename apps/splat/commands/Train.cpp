@@ -81,7 +81,8 @@ Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
     return Report.error();
   if (auto Written = writePly(A.Output, Out.Result,
                               {A.Trained.Request.Run.Antialiased, std::nullopt,
-                               "--antialiased", A.Trained.Request.Run.Kind});
+                               "--antialiased", A.Trained.Request.Run.Kind,
+                               A.Trained.Request.Run.FalloffDegree});
       !Written)
     return Written;
   if (auto Written = writeTrainPictures(A.Pictures, A.Output, Out, *Report);
@@ -110,8 +111,9 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
     printOut("projection   unscented: eval and render need --projection "
              "unscented, too\n");
   if (R.Run.Kind != RendererKind::Splat)
-    printOut("renderer     {}, which the scene's file says\n",
-             name(R.Run.Kind));
+    printOut("renderer     {}{}, which the scene's file says\n",
+             name(R.Run.Kind),
+             R.Run.FalloffDegree == 2 ? "" : ", falloff of degree 4");
   if (Out.Near)
     printOut("near plane   at depth {:g}: render from other distances needs "
              "--near {:g}, too\n",

@@ -67,6 +67,7 @@ void addTrainedOptions(CLI::App &App, TrainedArguments &A) {
   Group.next("Picture");
   addProjectionOption(App, R.Run.Through);
   addRendererOption(App, R.Run.Kind);
+  addFalloffOption(App, A.FalloffDegree, "2");
   App.add_flag(
       "--antialiased", R.Run.Antialiased,
       "Compensate opacities for the dilation; the scene's file records this");
@@ -95,6 +96,7 @@ Expected<Success> completeTrained(const CLI::App &App, TrainedArguments &A) {
   if (!Settings)
     return Settings.error();
   R.Run.Settings = *Settings;
+  R.Run.FalloffDegree = A.FalloffDegree.value_or(R.Run.FalloffDegree);
   R.Backward.AbsoluteSums = Settings->AbsoluteGradient;
   R.Backward.Depths = looksAtDepths(*Settings);
   R.Backward.Poses = arePosesOn(*Settings);
@@ -117,6 +119,8 @@ Expected<Success> checkTrained(const TrainRequest &R) {
   if (R.Run.Pictures == LensOf::Photograph && looksAtDepths(R.Run.Settings))
     return usage("--depth-weight: the depth loss needs undistorted pictures, "
                  "expected no --distorted");
+  if (auto Checked = checkFalloff(R.Run.Kind, R.Run.FalloffDegree); !Checked)
+    return Checked;
   if (R.Run.Kind != RendererKind::Splat)
     for (const auto &[Is, Option] :
          {std::pair{R.Run.Through != Spread::Jacobian, "--projection"},

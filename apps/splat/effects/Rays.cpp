@@ -20,6 +20,11 @@ Finding detectSurfels(const EffectInputs &In) {
   return byRenderer(In, In.Options.Kind == RendererKind::Surfel);
 }
 
+Finding detectDegree4(const EffectInputs &In) {
+  const unsigned Degree = In.Options.FalloffDegree;
+  return {Degree == 4, fmt::format("--falloff-degree {}", Degree), Degree == 4};
+}
+
 } // namespace
 
 const Effect effects::Rays{
@@ -30,6 +35,14 @@ const Effect effects::Rays{
     .Detect = detectRays,
     .Neutral = false,
     .ByCamera = true};
+
+const Effect effects::Degree4{.Name = "degree-4",
+                              .Kind = EffectKind::Scene,
+                              .What = "densities of exp(-q^2 / 18) along rays",
+                              .Macro = "USE_DEGREE4",
+                              .Detect = detectDegree4,
+                              .Neutral = false,
+                              .ByCamera = true};
 
 const Effect effects::Surfels{
     .Name = "surfels",

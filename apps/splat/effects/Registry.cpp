@@ -25,13 +25,13 @@ static std::vector<const Effect *> makeList() {
   for (const Effect &Lens : ofLenses())
     List.push_back(&Lens);
   for (const Effect *E :
-       {&Unscented,     &RollingShutter, &Needles,    &Crop,
-        &Windows,       &Rays,           &Surfels,    &RayOrder,
-        &Mesh,          &Texture,        &Light,      &Layers,
-        &IntersectTags, &ActivatedScene, &CullBlocks, &ZTiles,
-        &PixelUnit,     &SkipSaturated,  &Clock,      &Numerics,
-        &Checkers,      &Traces,         &Debugger,   &SortedPairs,
-        &Depth,         &Normals,        &PixelLists})
+       {&Unscented,   &RollingShutter, &Needles,        &Crop,
+        &Windows,     &Rays,           &Degree4,        &Surfels,
+        &RayOrder,    &Mesh,           &Texture,        &Light,
+        &Layers,      &IntersectTags,  &ActivatedScene, &CullBlocks,
+        &ZTiles,      &PixelUnit,      &SkipSaturated,  &Clock,
+        &Numerics,    &Checkers,       &Traces,         &Debugger,
+        &SortedPairs, &Depth,          &Normals,        &PixelLists})
     List.push_back(E);
   return List;
 }

@@ -22,7 +22,7 @@ extern const Effect RollingShutter;
 extern const Effect Needles;
 extern const Effect Crop;
 extern const Effect Windows;
-extern const Effect Rays, Surfels; // Rays.cpp
+extern const Effect Rays, Degree4, Surfels; // Rays.cpp
 extern const Effect RayOrder;
 extern const Effect Mesh, Texture, Light, Layers; // Mesh.cpp
 /// @}

@@ -239,6 +239,7 @@ enum {
   DATAPATH_SKIP_SATURATED = 32,
   DATAPATH_BLEND = 6,        ///< first bit of the blend arithmetic
   DATAPATH_ALPHA_CUTOFF = 8, ///< first bit of log2(255 times the cut-off)
+  DATAPATH_DEGREE4 = 1024,   ///< of rays
   DATAPATH_LOW_PASS = 2048   ///< of surfels
 };
 

@@ -65,7 +65,12 @@ static bool pixel_backward(RECORD_SPACE const splat_record *g,
 #else
   const float x = -at.x, y = -at.y;
 #endif
-  const float vx = v * x, vy = v * y;
+#if USE_DEGREE4
+  const float w = v * at.q;
+#else
+  const float w = v;
+#endif
+  const float vx = w * x, vy = w * y;
   sum[SUM_COLOR] += weight * u.x;
   sum[SUM_COLOR + 1] += weight * u.y;
   sum[SUM_COLOR + 2] += weight * u.z;
@@ -85,7 +90,7 @@ static bool pixel_backward(RECORD_SPACE const splat_record *g,
 #if USE_RAYS
   sum[SUM_UQ] += vx * at.q;
   sum[SUM_UQ + 1] += vy * at.q;
-  sum[SUM_QQ] += v * at.q * at.q;
+  sum[SUM_QQ] += w * at.q * at.q;
 #endif
 #ifdef ABSOLUTE_SUMS
   sum[SUM_WORDS] += fabs(g->conic[0] * vx + g->conic[1] * vy);

@@ -37,6 +37,7 @@ _Static_assert(DATAPATH_EXP == VR_OPTIONS_EXP_SHIFT &&
                    DATAPATH_SKIP_SATURATED == VR_OPTIONS_SKIP_SATURATED_MASK &&
                    DATAPATH_BLEND == VR_OPTIONS_BLEND_SHIFT &&
                    DATAPATH_ALPHA_CUTOFF == VR_OPTIONS_ALPHA_CUTOFF_SHIFT &&
+                   DATAPATH_DEGREE4 == VR_OPTIONS_DEGREE4_MASK &&
                    DATAPATH_LOW_PASS == VR_OPTIONS_LOW_PASS_MASK,
                "kernels/layout.h and docs/isa.md disagree");
 _Static_assert(sizeof(vx_tail) == TAIL_BYTES &&

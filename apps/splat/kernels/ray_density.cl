@@ -49,7 +49,7 @@ static ray_meeting meet(RECORD_SPACE const splat_record *g, float x, float y) {
 // The exponent there; no number where the ray has the Gaussian behind it, but
 // of surfels, which the low pass always sees.
 static float power_of(ray_meeting m) {
-  const float power = -0.5f * m.q;
+  const float power = POWER_AT(m.q);
 #if USE_SURFELS
   return power;
 #else

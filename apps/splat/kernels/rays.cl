@@ -136,7 +136,8 @@ static uint meet_rays(VIEW_SPACE const splat_view *view,
 
   // alpha is at least the cut-off inside an ellipsoid, whose dual quadric the
   // picture has as a dual conic: tangents to that are the box.
-  const float reach = 2.0f * log(fmax(1.0f, ratio)) * largest * largest;
+  const float reach =
+      SQUARE_AT(log(fmax(1.0f, ratio))) * largest * largest;
   silhouette sx, sy;
 #if LENS_IS_PARALLEL
   sx = (silhouette){0.0f, fabs(fx) * sqrt(reach * dot(across_y, across_y))};

@@ -56,11 +56,15 @@ static shape_gradients rays_backward(VIEW_SPACE const splat_view *view,
 #endif
 
   const float q = sum->uu + sum->vv + near * sum->qq;
-  const float3 y = by_u * sum->u + by_v * sum->v + by_q * q;
+  const float3 y =
+      MOMENT_FACTOR * (by_u * sum->u + by_v * sum->v + by_q * q);
   // Of the products of y's components, that with itself and with the next.
-  const float3 own_u = by_u * sum->uu + by_v * sum->uv + by_q * sum->uq;
-  const float3 own_v = by_u * sum->uv + by_v * sum->vv + by_q * sum->vq;
-  const float3 own_q = by_u * sum->uq + by_v * sum->vq + by_q * sum->qq;
+  const float3 own_u =
+      MOMENT_FACTOR * (by_u * sum->uu + by_v * sum->uv + by_q * sum->uq);
+  const float3 own_v =
+      MOMENT_FACTOR * (by_u * sum->uv + by_v * sum->vv + by_q * sum->vq);
+  const float3 own_q =
+      MOMENT_FACTOR * (by_u * sum->uq + by_v * sum->vq + by_q * sum->qq);
   const float3 itself = by_u * own_u + by_v * own_v + by_q * own_q;
   const float3 with_next = next_axis(by_u) * own_u + next_axis(by_v) * own_v +
                            next_axis(by_q) * own_q;

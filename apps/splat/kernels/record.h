@@ -7,6 +7,7 @@
 // Rays meet flat Gaussians (effects/Surfels.cpp).
 #pragma vorion choice effect USE_SURFELS
 
+#include "falloff_degree.h"
 #include "layout.h"
 
 #if USE_RAYS

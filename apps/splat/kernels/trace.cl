@@ -12,6 +12,7 @@
 
 #include "activate.cl"
 #include "blend_rules.cl"
+#include "falloff_degree.h"
 #include "layout.h"
 
 #include <vorion.h>
@@ -77,7 +78,8 @@ static ray_hit hit_of(__global const splat_traced *g, const traced_ray *r) {
     both += way * (others * mean);
     ahead += way * way;
   }
-  return (ray_hit){-0.5f * (across / ahead) * g->sharpness, both / ahead};
+  const float square = across / ahead * g->sharpness;
+  return (ray_hit){POWER_AT(square), both / ahead};
 }
 
 // The nearest Gaussian comes first. Empty places have alpha 0.

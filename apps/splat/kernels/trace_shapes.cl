@@ -12,6 +12,7 @@
 
 #include "activate.cl"
 #include "covariance.cl"
+#include "falloff_degree.h"
 #include "layout.h"
 #include "planes.h"
 #include "sh.cl"
@@ -54,7 +55,7 @@ static uint shape_of(__constant const splat_view *view,
       !(fmax(fmax(s.x * s.y, s.y * s.z), s.x * s.z) > 0.0f))
     return CULLED + CULL_DEGENERATE;
   const world_axes q = rotate_axes(unit);
-  const float reach = sqrt(2.0f * log(fmax(1.0f, ratio))) * largest;
+  const float reach = sqrt(SQUARE_AT(log(fmax(1.0f, ratio)))) * largest;
   const float3 half_size =
       reach * sqrt((s.x * q.q0) * (s.x * q.q0) + (s.y * q.q1) * (s.y * q.q1) +
                    (s.z * q.q2) * (s.z * q.q2));

@@ -83,6 +83,8 @@ struct Mesh;
 /// The options of one picture that reach the device.
 struct RenderOptions {
   RendererKind Kind = RendererKind::Splat;
+  /// 2, or 4 of rays and traced rays (Drawing).
+  unsigned FalloffDegree = 2;
   Rules Convention = Rules::Inria;
   Support Reach = Support::Exact;
   Path Blending = Path::Raster;

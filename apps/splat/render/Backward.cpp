@@ -33,10 +33,14 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   const EffectSwitch Rays = hasRayRecords(O.Kind) ? On : EffectSwitch::absent();
   const EffectSwitch Surfels =
       O.Kind == RendererKind::Surfel ? On : EffectSwitch::absent();
+  const EffectSwitch Degree4 =
+      O.FalloffDegree == 4 ? On : EffectSwitch::absent();
   const auto AddBlending = [&](auto Program) {
     choose(Program, O);
     Program.USE_RAYS = Rays;
     Program.USE_SURFELS = Surfels;
+    if constexpr (requires { Program.USE_DEGREE4; })
+      Program.USE_DEGREE4 = Degree4;
     if (B.Windows)
       Program.USE_WINDOWS = On;
     if constexpr (requires { Program.ABSOLUTE_SUMS; })
@@ -56,6 +60,7 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
       .SH_DEGREE = static_cast<cl_uint>(ShDegree),
       .STORED_PARAMETERS = B.Parameters == GradientsOf::Stored,
       .POSES = B.Poses,
+      .USE_DEGREE4 = Degree4,
       .USE_RAYS = Rays,
       .USE_SURFELS = Surfels};
   choose(Project, O);

@@ -584,6 +584,7 @@ splat_blend_options Pipeline::blendOptions() const {
           << DATAPATH_ALPHA_CUTOFF |
       (Options.Convention == Rules::Gsplat ? DATAPATH_STOP_AT_EQUAL : 0U) |
       (Options.SkipSaturated ? DATAPATH_SKIP_SATURATED : 0U) |
+      (Options.FalloffDegree == 4 ? DATAPATH_DEGREE4 : 0U) |
       (Options.Kind == RendererKind::Surfel ? DATAPATH_LOW_PASS : 0U);
   O.tail_count = Tail.Count;
   O.tail_last[0] = Tail.LastOver;

@@ -25,7 +25,8 @@ struct Sight {
 };
 
 /// \p Px and \p Py are the pixel's centre.
-Sight sightOf(const splat_gaussian &G, float Px, float Py, RendererKind) {
+Sight sightOf(const splat_gaussian &G, float Px, float Py, RendererKind,
+              unsigned) {
   const float Dx = G.mean[0] - Px, Dy = G.mean[1] - Py;
   if (!(std::abs(Dx) <= G.extent[0]))
     return {std::numeric_limits<float>::quiet_NaN()};
@@ -34,7 +35,7 @@ Sight sightOf(const splat_gaussian &G, float Px, float Py, RendererKind) {
 }
 
 Sight sightOf(const splat_ray_gaussian &G, float Px, float Py,
-              RendererKind Kind) {
+              RendererKind Kind, unsigned Degree) {
   constexpr float None = std::numeric_limits<float>::quiet_NaN();
   const float X = Px - 0.5F - static_cast<float>(G.first & 0xFFFF);
   const float Y = Py - 0.5F - static_cast<float>(G.first >> 16);
@@ -50,7 +51,7 @@ Sight sightOf(const splat_ray_gaussian &G, float Px, float Py,
   if (const float Blurred = 2 * (Dx * Dx + Dy * Dy);
       Kind == RendererKind::Surfel && !(Q <= Blurred))
     return {-0.5F * Blurred};
-  return {-0.5F * Q, L / Far};
+  return {Degree == 4 ? -1.0F / 18.0F * Q * Q : -0.5F * Q, L / Far};
 }
 
 /// Whether its box has the row of pixels with the centres at \p Py.
@@ -69,11 +70,13 @@ struct Walk {
   float Cutoff, LeastAlpha;
   bool StopsAtEqual;
   RendererKind Kind;
+  unsigned Degree;
 
   Walk(const PixelLists &Of, const RenderOptions &O)
       : Lists(Of), Cutoff(O.Cutoff),
         LeastAlpha(static_cast<float>(O.AlphaCutoff) / 255.0F),
-        StopsAtEqual(O.Convention == Rules::Gsplat), Kind(O.Kind) {}
+        StopsAtEqual(O.Convention == Rules::Gsplat), Kind(O.Kind),
+        Degree(O.FalloffDegree) {}
 
   /// The first record of the window of pixel (\p X, \p Y), and a coordinate of
   /// its centre there (kernels/window.h).
@@ -129,7 +132,7 @@ private:
     float T = 1;
     for (const uint32_t Number : Row) {
       const Record &G = Records[Number];
-      const auto [Power, Deeper] = sightOf(G, Px, Py, Kind);
+      const auto [Power, Deeper] = sightOf(G, Px, Py, Kind, Degree);
       if (!(Power <= 0))
         continue;
       // Through double: correctly rounded, but for rare ties.

@@ -14,6 +14,7 @@ constexpr std::string_view ModeKey = "splatrendermode:";
 constexpr std::string_view FlagKey = "antialiased ";
 constexpr std::string_view DilationKey = "dilation:";
 constexpr std::string_view RendererKey = "splatrenderer:";
+constexpr std::string_view DegreeKey = "splatfalloffdegree:";
 /// What Brush dilates by where it compensates, as Mip-Splatting does.
 constexpr double BrushDilation = 0.1;
 
@@ -68,6 +69,10 @@ std::optional<Error> take(const std::string &Where, std::string_view Comment,
     if (!Found)
       return unknown(Where, Source(), "SplatRenderer: splat, ray or surfel");
     D.Renderer = *Found;
+  } else if (const auto Degree = after(DegreeKey, Lower)) {
+    if (*Degree != "2" && *Degree != "4")
+      return unknown(Where, Source(), "SplatFalloffDegree: 2 or 4");
+    D.FalloffDegree = *Degree == "4" ? 4 : 2;
   }
   return std::nullopt;
 }
@@ -122,6 +127,7 @@ Drawing withRequest(Drawing D, const DrawingRequest &R) {
   if (R.Dilation)
     D.Dilation = R.Dilation;
   D.Renderer = R.Renderer.value_or(D.Renderer);
+  D.FalloffDegree = R.FalloffDegree.value_or(D.FalloffDegree);
   return D;
 }
 
@@ -129,6 +135,8 @@ std::string drawingComments(const Drawing &D) {
   std::string Lines;
   if (D.Renderer != RendererKind::Splat)
     Lines += fmt::format("comment SplatRenderer: {}\n", name(D.Renderer));
+  if (D.FalloffDegree != 2)
+    Lines += fmt::format("comment SplatFalloffDegree: {}\n", D.FalloffDegree);
   if (D.Antialiased)
     Lines += "comment SplatRenderMode: mip\n";
   if (D.Dilation)

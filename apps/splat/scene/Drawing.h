@@ -30,6 +30,11 @@ constexpr bool hasRayRecords(RendererKind K) {
   return K == RendererKind::Ray || K == RendererKind::Surfel;
 }
 
+/// Whether densities along rays have a degree to choose.
+constexpr bool hasFalloffDegree(RendererKind K) {
+  return K == RendererKind::Ray || K == RendererKind::Trace;
+}
+
 /// Those for which scenes are trained, and which files record.
 inline constexpr std::array<RendererKind, 3> TrainedRenderers{
     RendererKind::Splat, RendererKind::Ray, RendererKind::Surfel};
@@ -47,11 +52,14 @@ struct Drawing {
   std::string Source;
   /// Splat, Ray or Surfel; the other members are of Splat.
   RendererKind Renderer = RendererKind::Splat;
+  /// Of rays: with q the square of the distance in standard deviations, 2 is a
+  /// density of exp(-q / 2), 4 of exp(-q^2 / 18) (3DGRT).
+  unsigned FalloffDegree = 2;
 
   /// Whether both give the same picture.
   bool drawsAs(const Drawing &Other) const {
     return Antialiased == Other.Antialiased && Dilation == Other.Dilation &&
-           Renderer == Other.Renderer;
+           Renderer == Other.Renderer && FalloffDegree == Other.FalloffDegree;
   }
 };
 
@@ -66,6 +74,8 @@ struct DrawingRequest {
   std::optional<double> Dilation;
   // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
   std::optional<RendererKind> Renderer{};
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::optional<unsigned> FalloffDegree{};
 };
 Drawing withRequest(Drawing D, const DrawingRequest &R);
 
@@ -74,9 +84,9 @@ Drawing withRequest(Drawing D, const DrawingRequest &R);
 /// - `SplatRenderMode: default|mip|2dgs` (Brush, splat-transform). A file that
 ///   also says `Exported from Brush` has Brush's dilation for it, 0.1;
 /// - `antialiased 0|1` (Postshot);
-/// - `Dilation: PX2` and `SplatRenderer: splat|ray|surfel`, as
-///   drawingComments() writes them.
-/// Errors: unknown modes and renderers.
+/// - `Dilation: PX2`, `SplatRenderer: splat|ray|surfel` and
+///   `SplatFalloffDegree: 2|4`, as drawingComments() writes them.
+/// Errors: unknown modes, renderers and degrees.
 Expected<Drawing> drawingOfComments(const std::string &Where,
                                     std::span<const std::string> Comments);
 

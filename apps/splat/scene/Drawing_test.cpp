@@ -85,6 +85,14 @@ TEST(Drawing, TheRendererIsKeptAndOthersAreRefused) {
   EXPECT_EQ(drawingComments(*of({" SplatRenderer: surfel"})),
             "comment SplatRenderer: surfel\n");
   EXPECT_FALSE(of({" SplatRenderer: traced"}));
+  const auto Four = of({" SplatRenderer: ray", " SplatFalloffDegree: 4"});
+  ASSERT_TRUE(Four);
+  EXPECT_EQ(Four->FalloffDegree, 4U);
+  EXPECT_EQ(drawingComments(*Four),
+            "comment SplatRenderer: ray\ncomment SplatFalloffDegree: 4\n");
+  EXPECT_FALSE(Four->drawsAs(*Ray));
+  EXPECT_EQ(withRequest(*Four, {{}, {}, {}, 2}).FalloffDegree, 2U);
+  EXPECT_FALSE(of({" SplatFalloffDegree: 3"}));
 }
 
 TEST(Drawing, ADilationThatNoFloatHoldsIsRefused) {

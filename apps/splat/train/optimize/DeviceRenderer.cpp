@@ -12,6 +12,7 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
   RenderOptions O;
   O.Convention = Convention;
   O.Kind = How.Kind;
+  O.FalloffDegree = How.FalloffDegree;
   O.Blending = By.Kind;
   O.Tile = By.Tile;
   O.SimtGroup = By.SimtGroup;

@@ -37,6 +37,7 @@ public:
     bool Rolling = false;
     Spread Through = Spread::Jacobian;
     RendererKind Kind = RendererKind::Splat;
+    unsigned FalloffDegree = 2;
     ViewFacts Facts{}; ///< those that do not depend on the scene
     /// @}
   };

@@ -128,6 +128,8 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
     J["projection"] = name(Run.Through);
   if (Run.Kind != RendererKind::Splat)
     J["renderer"] = name(Run.Kind);
+  if (Run.FalloffDegree != 2)
+    J["falloff_degree"] = Run.FalloffDegree;
   if (Run.Masks != MaskSource::None)
     J["masks"] = name(Run.Masks);
   // What the order of the cores' sums depends on.

@@ -41,6 +41,7 @@ struct TrainRun {
   LensOf Pictures = LensOf::Undistorted;
   Spread Through = Spread::Jacobian;
   RendererKind Kind = RendererKind::Splat;
+  unsigned FalloffDegree = 2; ///< scene/Drawing.h
   /// Depth of the near plane; empty: that of the rules.
   std::optional<float> Near = std::nullopt;
   /// Of the frame in which the scene is trained (\c CapturePoints). Cameras and

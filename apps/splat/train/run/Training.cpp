@@ -470,11 +470,11 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   for (const ProgramSpec &P :
        Trainer::programs(R.Run.Settings, *Pictures, Out.Moments, R.Run.Kind))
     Launch.build(P);
-  DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
-                          {R.Run.Background, R.Run.RandomBackground,
-                           R.Run.Antialiased, R.Run.Near, *Model,
-                           isRolling(Cameras), R.Run.Through, R.Run.Kind,
-                           factsOfCameras(relativeTo(Cameras, R.Run.Origin))});
+  DeviceRenderer Renderer(
+      Launch, R.Convention, R.Blending, R.Backward,
+      {R.Run.Background, R.Run.RandomBackground, R.Run.Antialiased, R.Run.Near,
+       *Model, isRolling(Cameras), R.Run.Through, R.Run.Kind,
+       R.Run.FalloffDegree, factsOfCameras(relativeTo(Cameras, R.Run.Origin))});
   Trainer T(Launch, Renderer, *Pictures, R.Run, Processes, Out.Moments);
   if (auto Started = start(W, T); !Started)
     return Started;
