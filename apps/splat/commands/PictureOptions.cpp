@@ -208,6 +208,9 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
   if (O.Order == PixelOrder::Depth && O.Kind != RendererKind::Trace &&
       O.RayWindow != RenderOptions().RayWindow)
     return usage("--ray-window applies to rays only, expected --order ray");
+  if (O.Kind != RendererKind::Trace && O.Restart != RenderOptions().Restart)
+    return usage("--ray-restart applies to traced rays only, expected "
+                 "--renderer trace");
   if (O.Reach == Support::Official16 && O.tileSize() != 16)
     return usage(fmt::format("--tile {}: --support official16 has tiles of "
                              "16x16 pixels, expected 16",
@@ -420,14 +423,20 @@ Expected<Success> checkRenderer(const RenderOptions &O,
 
 Expected<Success> checkRays(const RenderOptions &O,
                             const std::string &Cameras) {
-  if (O.Kind == RendererKind::Splat ||
-      ((O.Optics->isPinhole() || O.Optics->IsParallel) && !O.Rolling))
+  if (O.Kind == RendererKind::Splat)
+    return Success{};
+  if (O.Rolling)
+    return Error{Cameras,
+                 fmt::format("--renderer {}: a camera with a rolling shutter, "
+                             "expected a global one, or --renderer splat",
+                             name(O.Kind))};
+  if (O.Kind == RendererKind::Trace || O.Optics->isPinhole() ||
+      O.Optics->IsParallel)
     return Success{};
   return Error{Cameras,
-               fmt::format("--renderer {}: a camera of model {}{}, expected a "
+               fmt::format("--renderer {}: a camera of model {}, expected a "
                            "pinhole or parallel rays, or --renderer splat",
-                           name(O.Kind), O.Optics->Name,
-                           O.Rolling ? " with a rolling shutter" : "")};
+                           name(O.Kind), O.Optics->Name)};
 }
 
 Expected<Success> checkGradientOptions(const RenderOptions &O,

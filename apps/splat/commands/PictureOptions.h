@@ -135,7 +135,9 @@ Expected<Success> excludedByRays(std::string_view Option,
 Expected<Success> checkRenderer(const RenderOptions &O,
                                 const DrawingRequest &Drawn);
 
-/// Refuses cameras of file \p Cameras whose rays are not affine in the pixel.
+/// Refuses cameras of file \p Cameras with rolling shutters, whose colours rays
+/// do not have, and for lists of rays those whose rays are not affine in the
+/// pixel.
 Expected<Success> checkRays(const RenderOptions &O, const std::string &Cameras);
 
 /// Declares all options of the gradients of a view; \p O is then set for

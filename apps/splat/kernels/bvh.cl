@@ -45,15 +45,18 @@ __kernel void bvh_codes(__constant const splat_view *view,
   keys[i] = code;
 }
 
-// Boxes in the order of codes, and empty ones up to a whole parent.
+// Boxes in the order of codes, and empty ones up to a whole parent. `leaves`: of
+// each Gaussian.
 __kernel void bvh_leaves(__global const uint *order,
                          __global const float *boxes, __global float *nodes,
-                         splat_tree tree) {
+                         __global uint *leaves, splat_tree tree) {
   const uint i = get_global_id(0);
   if (i >= (tree.count + 3) / 4 * 4)
     return;
   __global float *to = nodes + BOX_WORDS * (tree.leaves - tree.gap + i);
   const uint from = i < tree.count ? order[i] : 0;
+  if (i < tree.count)
+    leaves[from] = i;
 #pragma unroll
   for (uint k = 0; k < BOX_WORDS; ++k)
     to[k] = i < tree.count ? boxes[BOX_WORDS * from + k] : NOWHERE;

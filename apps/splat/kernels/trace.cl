@@ -2,11 +2,14 @@
 // the Gaussians that it meets in the order of where they are densest on it
 // (Moenne-Loccoz et al. 2024), those at one place by number. A pass keeps the
 // RAY_WINDOW nearest behind what the ray has blended; when they are blended and
-// the ray is not opaque, the next pass begins. The picture has the same bits for
-// every RAY_WINDOW and every tree.
+// the ray is not opaque, the next pass begins. As in GRTX (2026), it begins where
+// the one before left something, not at the root. The picture has the same bits
+// for every RAY_WINDOW and every tree.
 
 // Gaussians that a ray finds in a pass.
 #pragma vorion choice uint RAY_WINDOW
+// A pass begins at the root.
+#pragma vorion choice flag RESTART_AT_ROOT
 // INRIA's rule: what lies in the near plane is not drawn.
 #pragma vorion choice flag NEAR_IS_LEFT_OUT
 
@@ -93,8 +96,8 @@ static bool comes_before(float along, uint number, float other,
   return (along < other) | ((along == other) & (number < other_number));
 }
 
-// In its place, for the farthest.
-static void insert(hit_window *w, float along, float alpha, uint number) {
+// In its place, for the farthest, whose number it returns.
+static uint insert(hit_window *w, float along, float alpha, uint number) {
 #pragma unroll
   for (int k = 0; k < RAY_WINDOW; ++k) {
     const float d = w->along[k], a = w->alpha[k];
@@ -107,11 +110,13 @@ static void insert(hit_window *w, float along, float alpha, uint number) {
     alpha = before ? a : alpha;
     number = before ? n : number;
   }
+  return number;
 }
 
-// Whether the ray is in the box somewhere from `nearest` to `farthest`.
-static bool meets(__global const float *box, const traced_ray *r,
-                  float nearest, float farthest) {
+// Where the ray comes into the box; no number where it is not in the box
+// anywhere from `nearest` to `farthest`.
+static float entry(__global const float *box, const traced_ray *r,
+                   float nearest, float farthest) {
   float enter = -INFINITY, leave = INFINITY;
 #pragma unroll
   for (int k = 0; k < 3; ++k) {
@@ -122,7 +127,19 @@ static bool meets(__global const float *box, const traced_ray *r,
   }
   const float first = enter - WAY_ROUNDING * fabs(enter);
   const float last = leave + WAY_ROUNDING * fabs(leave);
-  return (first <= last) & (first <= farthest) & (last >= nearest);
+  return (first <= last) & (first <= farthest) & (last >= nearest) ? first
+                                                                   : NAN;
+}
+
+// The first leaf below a node.
+static uint first_leaf(uint node, splat_tree tree) {
+  return (node << ((clz(node) - clz(tree.leaves)) & ~1u)) - tree.leaves;
+}
+
+// The largest node that begins with a leaf.
+static uint node_from(uint leaf, splat_tree tree) {
+  const uint node = leaf + tree.leaves;
+  return node >> ((31u - clz(node & -node)) & ~1u);
 }
 
 // The next node that is not below this one: of the same parent, or where a
@@ -148,7 +165,8 @@ static uint node_after(uint node) {
 // of the pixels.
 __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
 trace(__global const float *rays, __global const float *nodes,
-      __global const uint *order, __global const splat_traced *shapes,
+      __global const uint *order, __global const uint *leaves,
+      __global const splat_traced *shapes,
       __global const float4 *colors, __global float4 *pixels,
       __global splat_ray_work *work, splat_tree tree, uint width, uint height,
       float cutoff, uint effects, uint onward) {
@@ -176,7 +194,7 @@ trace(__global const float *rays, __global const float *nodes,
   // What was blended last.
   float last = -INFINITY;
   uint last_number = 0;
-  bool open = x < width && y < height;
+  bool open = x < width && y < height && farthest > nearest;
   if (onward) {
     const float4 own = pixels[i];
     red = own.x;
@@ -184,10 +202,12 @@ trace(__global const float *rays, __global const float *nodes,
     blue = own.z;
     transmittance = own.w;
     done = work[i];
-    open &= farthest > nearest;
   }
+  uint start = 1;
   while (vx_vote_any(open)) {
     done.passes += open;
+    // The first leaf with what a later pass may blend.
+    uint rest = NONE;
     hit_window w;
 #pragma unroll
     for (int k = 0; k < RAY_WINDOW; ++k) {
@@ -196,11 +216,14 @@ trace(__global const float *rays, __global const float *nodes,
       w.number[k] = NONE;
     }
     const float from = fmax(nearest, last);
-    for (uint node = 1; node != DONE;) {
+    for (uint node = start; node != DONE;) {
       const bool is_leaf = node >= tree.leaves;
-      const bool is_met =
-          open & meets(nodes + BOX_WORDS * (node - (is_leaf ? tree.gap : 0)),
-                       &r, from, fmin(w.along[RAY_WINDOW - 1], farthest));
+      const float first =
+          entry(nodes + BOX_WORDS * (node - (is_leaf ? tree.gap : 0)), &r,
+                from, farthest);
+      const bool is_met = open & (first <= w.along[RAY_WINDOW - 1]);
+      if (first > w.along[RAY_WINDOW - 1])
+        rest = min(rest, first_leaf(node, tree));
       done.nodes += open;
       const uint leaf = node - tree.leaves;
       // The warp goes where one of its rays does.
@@ -214,14 +237,20 @@ trace(__global const float *rays, __global const float *nodes,
       // False for NaN.
       if (!((hit.power <= 0.0f) & IS_VISIBLE_POWER(hit.power) &
             IS_FROM(hit.along, nearest) & (hit.along < farthest) &
-            comes_before(last, last_number, hit.along, number) &
-            comes_before(hit.along, number, w.along[RAY_WINDOW - 1],
-                         w.number[RAY_WINDOW - 1])))
+            comes_before(last, last_number, hit.along, number)))
         continue;
+      if (!comes_before(hit.along, number, w.along[RAY_WINDOW - 1],
+                        w.number[RAY_WINDOW - 1])) {
+        rest = min(rest, leaf);
+        continue;
+      }
       const float alpha =
           clamped_alpha(g->opacity * falloff(hit.power), effects);
-      if (alpha >= ALPHA_CUTOFF / 255.0f)
-        insert(&w, hit.along, alpha, number);
+      if (alpha >= ALPHA_CUTOFF / 255.0f) {
+        const uint evicted = insert(&w, hit.along, alpha, number);
+        if (evicted != NONE)
+          rest = min(rest, leaves[evicted]);
+      }
     }
 #pragma unroll
     for (int k = 0; k < RAY_WINDOW; ++k) {
@@ -242,6 +271,11 @@ trace(__global const float *rays, __global const float *nodes,
     }
     last = w.along[RAY_WINDOW - 1];
     last_number = w.number[RAY_WINDOW - 1];
+    open &= rest != NONE;
+#ifndef RESTART_AT_ROOT
+    start = node_from(sub_group_reduce_min(open ? rest : NONE - tree.leaves),
+                      tree);
+#endif
   }
   if (x < width && y < height) {
     pixels[i] = (float4)(red, green, blue, transmittance);

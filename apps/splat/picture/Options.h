@@ -61,6 +61,12 @@ constexpr std::string_view name(Support S) {
                                                   "official16"};
   return Names[static_cast<std::size_t>(S)];
 }
+/// Where a traced ray goes on when its window has been blended: where the pass
+/// before left something (GRTX's checkpoints), or at the root.
+enum class RayRestart { Checkpoint, Root };
+constexpr std::string_view name(RayRestart R) {
+  return R == RayRestart::Checkpoint ? "checkpoint" : "root";
+}
 constexpr std::string_view name(Path P) {
   return P == Path::Raster ? "raster" : "simt";
 }
@@ -152,6 +158,8 @@ struct RenderOptions {
   /// Gaussians that a pixel selects per pass over its list, the nearest along
   /// its ray: 4, 8 or 16.
   unsigned RayWindow = 16;
+  /// Where the next pass of a traced ray begins.
+  RayRestart Restart = RayRestart::Checkpoint;
   /// @}
 
   /// Render for a backward pass: smaller tiles of the rasterizer

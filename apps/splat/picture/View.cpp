@@ -174,6 +174,10 @@ splat_crop makeCrop(const Camera &C) {
   return makeCrop(C, 0.5 * C.Width, 0.5 * C.Height, {0, 0});
 }
 
+bool hasAffineRays(const Camera &C) {
+  return C.Optics.isPinhole() || C.Optics.Model->IsParallel;
+}
+
 splat_ray_source makeRays(const Camera &C) {
   const auto Rotation = C.worldToCameraRotation();
   const double Focal[2] = {C.Fx, C.Fy};
@@ -190,6 +194,32 @@ splat_ray_source makeRays(const Camera &C) {
     split(IsParallel ? Axes[2] : 0, S.same[0][K], S.same[1][K]);
   }
   return S;
+}
+
+std::vector<float> makeRayTable(const Camera &C, float Nearest) {
+  const auto Rows = C.worldToCameraRotation();
+  const auto Width = static_cast<std::size_t>(C.Width);
+  const std::size_t Count = Width * static_cast<std::size_t>(C.Height);
+  std::vector<float> Rays(RAY_PLANES * Count);
+  for (std::size_t I = 0; I < Count; ++I) {
+    const double X = static_cast<double>(I % Width) + 0.5,
+                 Y = static_cast<double>(I / Width) + 0.5;
+    auto Along = C.Optics.direction((X - C.Cx) / C.Fx, (Y - C.Cy) / C.Fy);
+    Rays[RAY_NEAREST * Count + I] = Along ? Nearest : 0;
+    Rays[RAY_FARTHEST * Count + I] = Along ? Infinity : 0;
+    if (!Along)
+      Along = {0, 0, 1};
+    // So that depths are multiples of it.
+    const double Depth = C.Optics.Model->byDistance() ? 1 : (*Along)[2];
+    for (std::size_t K = 0; K < 3; ++K) {
+      double Direction = 0;
+      for (std::size_t A = 0; A < 3; ++A)
+        Direction += Rows[3 * A + K] * (*Along)[A] / Depth;
+      split(Direction, Rays[(RAY_DIRECTION + K) * Count + I],
+            Rays[(RAY_DIRECTION_LOW + K) * Count + I]);
+    }
+  }
+  return Rays;
 }
 
 float rayOriginRounding(const Camera &C) {

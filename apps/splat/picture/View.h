@@ -19,8 +19,15 @@ splat_lens makeLens(const Camera &C);
 /// What lies behind that in a program for cameras that move while they expose.
 splat_shutter makeShutter(const Camera &C);
 
-/// The rays of \p C, a pinhole or with parallel rays.
+/// Whether the rays of \p C, of one moment, are affine in the pixel: those of a
+/// pinhole, or parallel.
+bool hasAffineRays(const Camera &C);
+/// The rays of such a camera.
 splat_ray_source makeRays(const Camera &C);
+/// The rays of all pixels of a \p C of one moment whose rays are not parallel,
+/// from depth \p Nearest on, as RAY_PLANES planes. A pixel outside the image of
+/// the lens has a ray without a length.
+std::vector<float> makeRayTable(const Camera &C, float Nearest);
 /// An upper bound of what rounding takes away from their origins.
 float rayOriginRounding(const Camera &C);
 

@@ -118,9 +118,10 @@ struct TraceFrame {
   cl::Buffer Colors;  ///< seen from the camera
   float Distance = 0; ///< the mean of a coordinate, from the camera
   splat_tree Tree{};
-  cl::Buffer Nodes; ///< their boxes
-  cl::Buffer Rays;  ///< RAY_PLANES of those of all pixels
-  cl::Buffer Work;  ///< a splat_ray_work for each ray
+  cl::Buffer Nodes;  ///< their boxes
+  cl::Buffer Leaves; ///< of each Gaussian
+  cl::Buffer Rays;   ///< RAY_PLANES of those of all pixels
+  cl::Buffer Work;   ///< a splat_ray_work for each ray
 };
 
 /// The buffers of one picture, in the order in which they are filled.
@@ -248,6 +249,7 @@ private:
   void trace(const Camera &C);
   void shape(const Camera &C);
   void buildTree();
+  void castRays(const Camera &C);
   void traceRays(const Camera &C);
   cl::Buffer reflect(uint32_t Rays);
   void traceThrough(const cl::Buffer &Rays, bool Onward);

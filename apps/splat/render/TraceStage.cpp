@@ -106,12 +106,14 @@ void Pipeline::buildTree() {
   const splat_tree &T = To.Tree;
   const uint32_t Leaves = (T.count + 3) / 4 * 4;
   To.Nodes = words("tree", BOX_WORDS * (uint64_t{T.leaves} - T.gap + Leaves));
+  To.Leaves = words("leaves", Count);
   if (T.count == 0)
     return;
   Launch.run(itemsFor(Leaves), GroupSize,
              kernels::bvh::bvh_leaves{.order = Current.Order,
                                       .boxes = To.Boxes,
                                       .nodes = To.Nodes,
+                                      .leaves = To.Leaves,
                                       .tree = T});
   uint32_t Below = Leaves;
   for (uint32_t First = T.leaves / 4; First != 0; First /= 4) {
@@ -123,19 +125,30 @@ void Pipeline::buildTree() {
   }
 }
 
-void Pipeline::traceRays(const Camera &C) {
-  TraceFrame &To = Current.Traced;
+/// Rays that are affine in the pixel are computed, others are a table.
+void Pipeline::castRays(const Camera &C) {
+  const uint32_t Rays = Current.pixels();
+  const cl::Buffer To = Current.Traced.Rays =
+      words("rays", RAY_PLANES * uint64_t{Rays});
+  if (!hasAffineRays(C)) {
+    const std::vector<float> Table = makeRayTable(C, Options.nearLimit());
+    return Launch.write("rays", To, Table.data(), 4 * Table.size());
+  }
   const splat_ray_source From = makeRays(C);
   const cl::Buffer Source = Launch.allocate("source of rays", sizeof From);
   Launch.write("source of rays", Source, &From, sizeof From);
-  const uint32_t Rays = Current.pixels();
-  To.Rays = words("rays", RAY_PLANES * uint64_t{Rays});
   Launch.run(itemsFor(Rays), GroupSize,
              kernels::trace_rays::trace_rays{.source = Source,
-                                             .rays = To.Rays,
+                                             .rays = To,
                                              .width = Current.View.size[0],
                                              .count = Rays,
                                              .nearest = Options.nearLimit()});
+}
+
+void Pipeline::traceRays(const Camera &C) {
+  TraceFrame &To = Current.Traced;
+  castRays(C);
+  const uint32_t Rays = Current.pixels();
   Current.Pixels = Launch.allocate("pixels", 16 * uint64_t{Rays});
   To.Work =
       Launch.allocate("work of rays", sizeof(splat_ray_work) * uint64_t{Rays});
@@ -159,6 +172,7 @@ void Pipeline::traceThrough(const cl::Buffer &Rays, bool Onward) {
              kernels::trace::trace{.rays = Rays,
                                    .nodes = To.Nodes,
                                    .order = Current.Order,
+                                   .leaves = To.Leaves,
                                    .shapes = To.Shapes,
                                    .colors = To.Colors,
                                    .pixels = Current.Pixels,
