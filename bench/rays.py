@@ -30,7 +30,7 @@ COSTED = (("footprints, rasterizer", "footprints", "raster", ()), ("cores", "foo
           ("rays, rasterizer", "ray", "raster", ()), ("cores", "ray", "simt", ()),
           ("surfels, rasterizer", "surfel", "raster", ()), ("cores", "surfel", "simt", ()),
           *((f"traced, {window} hits a pass", "trace", "simt", ("--ray-window", window)) for window in WINDOWS),
-          ("restarts at the root", "trace", "simt", ("--ray-window", WINDOWS[-1], "--ray-restart", "root")))
+          ("with checkpoints", "trace", "simt", ("--ray-window", WINDOWS[-1], "--ray-restart", "checkpoint")))
 # What is said of a frame, by its report and its comparison with the reference.
 COSTS = {
     "cycles": lambda report, _: f"{report['time']['sum']['cycles']:,}",

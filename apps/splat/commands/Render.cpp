@@ -653,12 +653,11 @@ Runner addRender(CLI::App &App) {
   App.add_flag("--overlap", A->Overlap,
                "With several pictures, overlap the preparation of one with the "
                "blending of another");
-  addChoice(
-      App, "--ray-restart", A->Options.Restart,
-      {RayRestart::Checkpoint, RayRestart::Root},
-      "Where the next pass of a ray of --renderer trace begins: where the "
-      "one before left something, or at the tree's root; results are "
-      "bit-identical");
+  addChoice(App, "--ray-restart", A->Options.Restart,
+            {RayRestart::Root, RayRestart::Checkpoint},
+            "Where the next pass of a ray of --renderer trace begins: at the "
+            "tree's root, or where the one before left something; results are "
+            "bit-identical");
   addChoice(App, "--deal", A->Options.Deal,
             {Dealing::Lists, Dealing::LastFrame},
             "Distribution of tiles to the rasterizers: by the lengths of their "

@@ -2,14 +2,14 @@
 // the Gaussians that it meets in the order of where they are densest on it
 // (Moenne-Loccoz et al. 2024), those at one place by number. A pass keeps the
 // RAY_WINDOW nearest behind what the ray has blended; when they are blended and
-// the ray is not opaque, the next pass begins. As in GRTX (2026), it begins where
-// the one before left something, not at the root. The picture has the same bits
-// for every RAY_WINDOW and every tree.
+// the ray is not opaque, the next pass begins: at the root, or where the one
+// before left something (after GRTX, 2026). The picture has the same bits for
+// every RAY_WINDOW and every tree.
 
 // Gaussians that a ray finds in a pass.
 #pragma vorion choice uint RAY_WINDOW
-// A pass begins at the root.
-#pragma vorion choice flag RESTART_AT_ROOT
+// A pass begins where the one before left something.
+#pragma vorion choice flag CHECKPOINTS
 // INRIA's rule: what lies in the near plane is not drawn.
 #pragma vorion choice flag NEAR_IS_LEFT_OUT
 
@@ -113,10 +113,9 @@ static uint insert(hit_window *w, float along, float alpha, uint number) {
   return number;
 }
 
-// Where the ray comes into the box; no number where it is not in the box
-// anywhere from `nearest` to `farthest`.
-static float entry(__global const float *box, const traced_ray *r,
-                   float nearest, float farthest) {
+// Whether the ray is in the box somewhere from `nearest` to `farthest`.
+static bool meets(__global const float *box, const traced_ray *r,
+                  float nearest, float farthest) {
   float enter = -INFINITY, leave = INFINITY;
 #pragma unroll
   for (int k = 0; k < 3; ++k) {
@@ -127,8 +126,7 @@ static float entry(__global const float *box, const traced_ray *r,
   }
   const float first = enter - WAY_ROUNDING * fabs(enter);
   const float last = leave + WAY_ROUNDING * fabs(leave);
-  return (first <= last) & (first <= farthest) & (last >= nearest) ? first
-                                                                   : NAN;
+  return (first <= last) & (first <= farthest) & (last >= nearest);
 }
 
 // The first leaf below a node.
@@ -206,8 +204,10 @@ trace(__global const float *rays, __global const float *nodes,
   uint start = 1;
   while (vx_vote_any(open)) {
     done.passes += open;
+#ifdef CHECKPOINTS
     // The first leaf with what a later pass may blend.
     uint rest = NONE;
+#endif
     hit_window w;
 #pragma unroll
     for (int k = 0; k < RAY_WINDOW; ++k) {
@@ -218,12 +218,15 @@ trace(__global const float *rays, __global const float *nodes,
     const float from = fmax(nearest, last);
     for (uint node = start; node != DONE;) {
       const bool is_leaf = node >= tree.leaves;
-      const float first =
-          entry(nodes + BOX_WORDS * (node - (is_leaf ? tree.gap : 0)), &r,
-                from, farthest);
-      const bool is_met = open & (first <= w.along[RAY_WINDOW - 1]);
-      if (first > w.along[RAY_WINDOW - 1])
+      __global const float *box =
+          nodes + BOX_WORDS * (node - (is_leaf ? tree.gap : 0));
+      const bool is_met =
+          open &
+          meets(box, &r, from, fmin(w.along[RAY_WINDOW - 1], farthest));
+#ifdef CHECKPOINTS
+      if (!is_met & meets(box, &r, from, farthest))
         rest = min(rest, first_leaf(node, tree));
+#endif
       done.nodes += open;
       const uint leaf = node - tree.leaves;
       // The warp goes where one of its rays does.
@@ -241,15 +244,19 @@ trace(__global const float *rays, __global const float *nodes,
         continue;
       if (!comes_before(hit.along, number, w.along[RAY_WINDOW - 1],
                         w.number[RAY_WINDOW - 1])) {
+#ifdef CHECKPOINTS
         rest = min(rest, leaf);
+#endif
         continue;
       }
       const float alpha =
           clamped_alpha(g->opacity * falloff(hit.power), effects);
       if (alpha >= ALPHA_CUTOFF / 255.0f) {
         const uint evicted = insert(&w, hit.along, alpha, number);
+#ifdef CHECKPOINTS
         if (evicted != NONE)
           rest = min(rest, leaves[evicted]);
+#endif
       }
     }
 #pragma unroll
@@ -271,8 +278,8 @@ trace(__global const float *rays, __global const float *nodes,
     }
     last = w.along[RAY_WINDOW - 1];
     last_number = w.number[RAY_WINDOW - 1];
+#ifdef CHECKPOINTS
     open &= rest != NONE;
-#ifndef RESTART_AT_ROOT
     start = node_from(sub_group_reduce_min(open ? rest : NONE - tree.leaves),
                       tree);
 #endif

@@ -61,11 +61,11 @@ constexpr std::string_view name(Support S) {
                                                   "official16"};
   return Names[static_cast<std::size_t>(S)];
 }
-/// Where a traced ray goes on when its window has been blended: where the pass
-/// before left something (GRTX's checkpoints), or at the root.
-enum class RayRestart { Checkpoint, Root };
+/// Where a traced ray goes on when its window has been blended: at the root, or
+/// where the pass before left something (GRTX's checkpoints).
+enum class RayRestart { Root, Checkpoint };
 constexpr std::string_view name(RayRestart R) {
-  return R == RayRestart::Checkpoint ? "checkpoint" : "root";
+  return R == RayRestart::Root ? "root" : "checkpoint";
 }
 constexpr std::string_view name(Path P) {
   return P == Path::Raster ? "raster" : "simt";
@@ -159,7 +159,7 @@ struct RenderOptions {
   /// its ray: 4, 8 or 16.
   unsigned RayWindow = 16;
   /// Where the next pass of a traced ray begins.
-  RayRestart Restart = RayRestart::Checkpoint;
+  RayRestart Restart = RayRestart::Root;
   /// @}
 
   /// Render for a backward pass: smaller tiles of the rasterizer

@@ -54,8 +54,8 @@ template <typename Program> void choose(Program &P, const RenderOptions &O) {
     P.GROUP = O.SimtGroup;
   if constexpr (requires { P.RAY_WINDOW; })
     P.RAY_WINDOW = O.RayWindow;
-  if constexpr (requires { P.RESTART_AT_ROOT; })
-    P.RESTART_AT_ROOT = O.Restart == RayRestart::Root;
+  if constexpr (requires { P.CHECKPOINTS; })
+    P.CHECKPOINTS = O.Restart == RayRestart::Checkpoint;
   if constexpr (requires { P.EXP_DEGREE; })
     if (const unsigned Degree = kernelDegree(O.Exponential); Degree != 0)
       P.EXP_DEGREE = Degree;
