@@ -234,8 +234,9 @@ ELSEWHERE = (
      "table reaches 1.2e-5", "[reciprocal units](lane-units.md#reciprocal-units)"),
     ("mechanisms", "compatible with ray tracing: alpha blending stays unchanged", "unchanged", "open", "in part: along rays (3DGUT, gsplat's `with_eval3d`) order, thresholds, "
      "stop and colour's sums stay; alpha needs a quotient and 34 % more of a lane, a Gaussian 64 bytes in place of 48, and gradients eight moments in place of five; "
-     "surfels, too, with two more and a low pass",
-     "[rays](tables/unification.md#rays-on-gaussians)"),
+     "surfels, too, with two more and a low pass; blending is 0.04 to 0.34 % of a traced frame's instructions, for which the pixel unit does not pay at any list length, "
+     "occlusion or coherence",
+     "[rays](tables/unification.md#rays-on-gaussians), [traced](tables/tracing.md#the-pixel-unit)"),
     ("power and area", "minimal hardware change to traditional rasterizers", "minimal", "open", "in gates a rasterizer of Gaussians grows by 5.7 to 13.2 % to draw triangles, "
      "one of triangles to 3.5 times its gates to draw Gaussians", "[unification](unification.md)"),
     ("power and area", "7 % of a lane for gradients", "7 %", "open", "6.4 % in gates if idle multipliers of a pair are reused, without the gather; three adders and three "
