@@ -202,8 +202,9 @@ std::vector<float> makeRayTable(const Camera &C, float Nearest) {
   const std::size_t Count = Width * static_cast<std::size_t>(C.Height);
   std::vector<float> Rays(RAY_PLANES * Count);
   for (std::size_t I = 0; I < Count; ++I) {
-    const double X = static_cast<double>(I % Width) + 0.5,
-                 Y = static_cast<double>(I / Width) + 0.5;
+    const std::size_t Column = I % Width, Row = I / Width;
+    const double X = static_cast<double>(Column) + 0.5,
+                 Y = static_cast<double>(Row) + 0.5;
     auto Along = C.Optics.direction((X - C.Cx) / C.Fx, (Y - C.Cy) / C.Fy);
     Rays[RAY_NEAREST * Count + I] = Along ? Nearest : 0;
     Rays[RAY_FARTHEST * Count + I] = Along ? Infinity : 0;
