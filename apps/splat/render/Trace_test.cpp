@@ -95,8 +95,7 @@ TEST_F(TracedRays, BoxesHoldWhatReachesTheLeastAlpha) {
           Square += Along * Along;
         }
         const double Half = Reach * std::sqrt(Square);
-        const double Mean =
-            S.Means[3 * I + K] - camera().Position[static_cast<std::size_t>(K)];
+        const double Mean = S.Means[3 * I + K] - camera().Position[K];
         const double Low = Boxes[BOX_WORDS * I + BOX_LOW + K];
         const double High = Boxes[BOX_WORDS * I + BOX_HIGH + K];
         EXPECT_LE(Low, Mean - Half) << I;

@@ -49,6 +49,11 @@ RayCase surfels(RayCase C) {
   return C;
 }
 
+RayCase ofDegree4(RayCase C) {
+  C.Options.FalloffDegree = 4;
+  return C;
+}
+
 /// With \p PerUnit pixels for each unit.
 void makeParallel(RayCase &C, double PerUnit) {
   C.View.Optics = splat::CameraModel{&splat::lenses::Orthographic};
@@ -323,6 +328,18 @@ void addRays(std::vector<TrainingCase> &Cases) {
                             "scales up to 1e19, depths up to 1e6, quaternions "
                             "of any length beside what is culled, NaN too",
                             extremes()));
+  const std::string Fourth = "densities of exp(-q^2 / 18): ";
+  Cases.push_back(pictureOf("degree-4-from-inside", Fourth + Inside,
+                            ofDegree4(fromInside())));
+  Cases.push_back(pictureOf("degree-4-along-needles", Fourth + End,
+                            ofDegree4(alongNeedles(false)),
+                            {"degree-4-in-small-boxes"}));
+  Cases.push_back(pictureOf("degree-4-of-discs", Fourth + Flat,
+                            ofDegree4(withoutThickness())));
+  Cases.push_back(gradientsOf("degree-4-from-inside", Fourth + Inside,
+                              ofDegree4(fromInside()), {"degree-4-back-as-2"}));
+  Cases.push_back(gradientsOf("degree-4-along-needles", Fourth + End,
+                              ofDegree4(alongNeedles(false))));
   const std::string Edge =
       "surfels from the edge, to the bit and nearly, and less than a pixel";
   Cases.push_back(pictureOf("surfels-from-the-edge", Edge, edges(false),
