@@ -16,6 +16,12 @@ using namespace vorion::reference;
 
 namespace {
 
+/// Of a pixel in the picture.
+std::size_t numberOf(const Camera<double> &C, int X, int Y) {
+  return static_cast<std::size_t>(Y) * static_cast<std::size_t>(C.Width) +
+         static_cast<std::size_t>(X);
+}
+
 Camera<double> camera(const LensModel *M) {
   auto C = frontCamera(64, 48, M == &lenses::Fisheye ? 20 : 50);
   if (M == &lenses::Equirectangular)
@@ -80,7 +86,7 @@ TEST(AlongRays, OneGaussianIsItsLargestDensityOnEachRay) {
     const glm::dvec3 Beside =
         glm::cross(Ray, G.Means[0]) / (glm::length(Ray) * Scale);
     const double Alpha = Opacity * std::exp(-0.5 * glm::dot(Beside, Beside));
-    const auto At = static_cast<std::size_t>(Pixel.y * C.Width + Pixel.x);
+    const auto At = numberOf(C, Pixel.x, Pixel.y);
     EXPECT_NEAR(P.Render[At].x, Alpha, 1e-12);
     EXPECT_NEAR(P.Transmittance[At], 1 - Alpha, 1e-12);
     const double Q = glm::dot(Beside, Beside);
@@ -111,7 +117,7 @@ TEST(AlongRays, TracedOrderIsThatOfTheDensest) {
   G.Scales[0] = {3, 3, 0.001};
   G.Quats[0] = {std::cos(0.4), 0, -std::sin(0.4), 0};
   addRound(G, {0.5, 0, 2.1}, 0.1, 0.9, {0, 1, 0});
-  const auto At = static_cast<std::size_t>(24 * C.Width + 44);
+  const auto At = numberOf(C, 44, 24);
   const auto Seen = renderAlongRays(G, C, O, RayDepths::Ray).Render[At];
   EXPECT_NEAR(Seen.y, 0.9, 0.01);
   EXPECT_NEAR(Seen.x, 0.09, 0.01);
@@ -127,7 +133,7 @@ TEST(AlongRays, TracedOrderIsThatOfTheDensest) {
   Gaussians<double> Two;
   addRound(Two, {0, 0, 2}, 0.3, 0.4, glm::dvec3(1));
   addRound(Two, {0, 0, 2 * (1 + 5e-6)}, 0.3, 0.5, glm::dvec3(1));
-  const auto Centre = static_cast<std::size_t>(24 * C.Width + 32);
+  const auto Centre = numberOf(C, 32, 24);
   EXPECT_EQ(renderAlongRays(Two, C, O, RayDepths::Ray).Doubts[Centre],
             DoubtOrder);
   EXPECT_EQ(renderAlongRays(Two, C, O).Doubts[Centre], 0);
@@ -294,7 +300,7 @@ TEST(AlongRays, ASurfelIsItsDiscOrABlurOfAPixel) {
         const double OnDisc = std::exp(-0.5 * (U * U + V * V)),
                      OnPicture = std::exp(-glm::dot(Off, Off));
         const double Alpha = 0.8 * std::max(OnDisc, OnPicture);
-        const auto I = static_cast<std::size_t>(Y * C.Width + X);
+        const auto I = numberOf(C, X, Y);
         EXPECT_NEAR(P.Render[I].x, Alpha < 1.0 / 255 ? 0 : Alpha, 1e-12)
             << Turn << ' ' << X << ' ' << Y;
         Met += Alpha >= 1.0 / 255 && OnDisc > OnPicture;
