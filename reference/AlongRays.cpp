@@ -45,12 +45,13 @@ double density(const Options &O, double Square) {
   return std::exp(O.FalloffDegree == 4 ? -Square * Square / 18 : -Square / 2);
 }
 
-/// The square at which a density is \p Least, and by how much q / 2 changes its
-/// logarithm at \p Square.
+/// The square of the distance at which a density is \p Least.
 double squareAt(const Options &O, double Least) {
   return O.FalloffDegree == 4 ? std::sqrt(std::max(0., -18 * std::log(Least)))
                               : -2 * std::log(Least);
 }
+/// The derivative of the density's logarithm at \p Square, relative to that of
+/// degree 2.
 double rate(const Options &O, double Square) {
   return O.FalloffDegree == 4 ? 2. / 9 * Square : 1;
 }

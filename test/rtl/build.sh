@@ -12,7 +12,7 @@ case "$#:${2:-}" in
 esac
 Sources=()
 for Module in fp32 exp_table triangle lane "${Modules[@]}" "$Top"; do Sources+=("$Here/$Module.sv"); done
-# Sources are small and run for seconds: time goes to compiling, of what is compiled again in each folder.
+# Sources are small and run for seconds: time goes to compiling. ccache shares objects among folders.
 verilator --cc --exe --build -j 2 --hierarchical --top-module "$Top" --Mdir "$1" -o Bench \
   -Wall -Wno-DECLFILENAME -Wno-UNUSEDSIGNAL \
   -MAKEFLAGS "OBJCACHE=$(command -v ccache || true) CXX=$Compiler LINK=$Compiler OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O0" -CFLAGS "-std=c++20 -I$Here -I$Here/../../isasim" \

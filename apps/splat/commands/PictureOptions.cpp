@@ -341,14 +341,20 @@ void addRendererOption(CLI::App &App, RendererKind &Kind,
             "or traced (docs/cameras.md)");
 }
 
-void addFalloffOption(CLI::App &App, std::optional<unsigned> &Degree,
-                      std::string_view Default) {
+/// \p Default is what stands for the option without it.
+template <typename Number>
+static void addFalloffOption(CLI::App &App, Number &Degree,
+                             std::string_view Default) {
   const HelpGroup Group(App, "Picture");
   addSize(App, "--falloff-degree", Degree, {2, 4},
           "Degree of a Gaussian's density along rays: exp(-q / 2) or, as in "
           "3DGRT, exp(-q^2 / 18), q being the square of the distance in "
           "standard deviations",
           Default);
+}
+
+void addFalloffOption(CLI::App &App, unsigned &Degree) {
+  addFalloffOption(App, Degree, std::to_string(Degree));
 }
 
 void addRendererOption(CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,

@@ -104,17 +104,16 @@ Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
 void addRendererOption(CLI::App &App, RendererKind &Kind,
                        const std::vector<RendererKind> &Kinds = {
                            TrainedRenderers.begin(), TrainedRenderers.end()});
-/// The same, for scenes whose files may name one: notes in \p Drawn that it is
-/// given.
+/// The same with --falloff-degree, for scenes whose files may record them: \p
+/// Drawn gets what is given.
 void addRendererOption(CLI::App &App, RendererKind &Kind, DrawingRequest &Drawn,
                        const std::vector<RendererKind> &Kinds = {
                            TrainedRenderers.begin(), TrainedRenderers.end()});
 
-/// Declares --falloff-degree; \p Default is what stands for it without.
-void addFalloffOption(CLI::App &App, std::optional<unsigned> &Degree,
-                      std::string_view Default);
+/// Declares --falloff-degree, whose default is \p Degree.
+void addFalloffOption(CLI::App &App, unsigned &Degree);
 
-/// Refuses a \p Degree that \p Kind has not; a usage error.
+/// A usage error if \p Kind does not support the falloff of \p Degree.
 Expected<Success> checkFalloff(RendererKind Kind,
                                const std::optional<unsigned> &Degree);
 
@@ -135,9 +134,9 @@ Expected<Success> excludedByRays(std::string_view Option,
 Expected<Success> checkRenderer(const RenderOptions &O,
                                 const DrawingRequest &Drawn);
 
-/// Refuses cameras of file \p Cameras with rolling shutters, whose colours rays
-/// do not have, and for lists of rays those whose rays are not affine in the
-/// pixel.
+/// Refuses cameras of file \p Cameras with rolling shutters, because a Gaussian
+/// has one colour in a picture, and for lists of rays those whose rays are not
+/// affine in the pixel.
 Expected<Success> checkRays(const RenderOptions &O, const std::string &Cameras);
 
 /// Declares all options of the gradients of a view; \p O is then set for

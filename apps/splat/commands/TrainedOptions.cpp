@@ -67,7 +67,7 @@ void addTrainedOptions(CLI::App &App, TrainedArguments &A) {
   Group.next("Picture");
   addProjectionOption(App, R.Run.Through);
   addRendererOption(App, R.Run.Kind);
-  addFalloffOption(App, A.FalloffDegree, "2");
+  addFalloffOption(App, R.Run.FalloffDegree);
   App.add_flag(
       "--antialiased", R.Run.Antialiased,
       "Compensate opacities for the dilation; the scene's file records this");
@@ -96,7 +96,6 @@ Expected<Success> completeTrained(const CLI::App &App, TrainedArguments &A) {
   if (!Settings)
     return Settings.error();
   R.Run.Settings = *Settings;
-  R.Run.FalloffDegree = A.FalloffDegree.value_or(R.Run.FalloffDegree);
   R.Backward.AbsoluteSums = Settings->AbsoluteGradient;
   R.Backward.Depths = looksAtDepths(*Settings);
   R.Backward.Poses = arePosesOn(*Settings);

@@ -12,7 +12,6 @@ namespace vorion::splat {
 struct TrainedArguments {
   TrainRequest Request;
   SettingOptions Settings;
-  std::optional<unsigned> FalloffDegree; ///< --falloff-degree
 };
 
 /// Declares the capture, its pictures, the initial scene, settings and rules.

@@ -10,7 +10,8 @@
 #define POWER_AT(q) (-1.0f / 18.0f * (q) * (q))
 // The q at which the density is e^-fall.
 #define SQUARE_AT(fall) sqrt(18.0f * (fall))
-// Moments, which have q once more, to the change of q / 2.
+// The derivative of the exponent by q is this times that of degree 2, -1/2, and
+// times q, which the sums over pixels contain.
 #define MOMENT_FACTOR (2.0f / 9.0f)
 #else
 #define POWER_AT(q) (-0.5f * (q))

@@ -131,24 +131,21 @@ static bool meets(__global const float *box, const traced_ray *r,
 
 // The first leaf below a node.
 static uint first_leaf(uint node, splat_tree tree) {
-  return (node << ((clz(node) - clz(tree.leaves)) & ~1u)) - tree.leaves;
+  return (node << (clz(node) - clz(tree.leaves))) - tree.leaves;
 }
 
-// The largest node that begins with a leaf.
-static uint node_from(uint leaf, splat_tree tree) {
-  const uint node = leaf + tree.leaves;
-  return node >> ((31u - clz(node & -node)) & ~1u);
+// The highest ancestor from which first children lead down to the node.
+static uint ancestor_by_first(uint node) {
+  // Nodes of a level begin at a power of 4, so the zeros of base 4 at the end of
+  // the number are the levels.
+  const uint zeros = 31u - clz(node & -node);
+  return node >> (zeros & ~1u);
 }
 
 // The next node that is not below this one: of the same parent, or where a
 // parent has no more, of the parent's. The root has none.
 static uint node_after(uint node) {
-  const uint next = node + 1;
-  // Nodes of a level begin at a power of 4, so the zeros of base 4 say how many
-  // levels end here.
-  const uint bit = next & -next;
-  const uint zeros = 31u - clz(bit);
-  const uint up = next >> (zeros & ~1u);
+  const uint up = ancestor_by_first(node + 1);
   return up <= 2 ? DONE : up;
 }
 
@@ -280,8 +277,8 @@ trace(__global const float *rays, __global const float *nodes,
     last_number = w.number[RAY_WINDOW - 1];
 #ifdef CHECKPOINTS
     open &= rest != NONE;
-    start = node_from(sub_group_reduce_min(open ? rest : NONE - tree.leaves),
-                      tree);
+    start = ancestor_by_first(
+        tree.leaves + sub_group_reduce_min(open ? rest : NONE - tree.leaves));
 #endif
   }
   if (x < width && y < height) {
